@@ -1,0 +1,315 @@
+#include "coordinator.h"
+
+#include "failure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+namespace mpipov {
+namespace {
+
+std::vector<int> ids_of(const Partition& partition) {
+    std::vector<int> ids(partition.sections.size());
+    std::iota(ids.begin(), ids.end(), 0);
+    return ids;
+}
+
+std::vector<int> lanes_of(const std::vector<RankRecord>& ranks) {
+    std::vector<int> lanes;
+    for (const RankRecord& rank : ranks) lanes.push_back(rank.slots);
+    return lanes;
+}
+
+nlohmann::json about(const SectionRecord& record) {
+    return {{"rank", record.rank},
+            {"host", record.host},
+            {"start", record.start},
+            {"end", record.end},
+            {"wall_seconds", record.wall_seconds},
+            {"cpu_seconds", record.cpu_seconds},
+            {"attempts", record.attempts}};
+}
+
+}  // namespace
+
+Coordinator::Coordinator(CoordinatorSetup setup, Transport& transport, Canvas& canvas,
+                         Journal* journal, std::function<double()> clock)
+    : setup_(std::move(setup)),
+      transport_(transport),
+      canvas_(canvas),
+      journal_(journal),
+      clock_(std::move(clock)),
+      schedule_(setup_.policy, ids_of(setup_.partition), lanes_of(setup_.ranks)),
+      overlap_(setup_.partition, canvas.layout()),
+      seams_(overlap_.seams().size()),
+      under_way_(setup_.ranks.size(), 0),
+      busy_since_(setup_.ranks.size(), 0) {
+    for (const Section& section : setup_.partition.sections) {
+        Progress progress;
+        progress.record.section = section;
+        sections_.push_back(std::move(progress));
+    }
+    for (std::size_t i = 0; i < seams_.size(); ++i) seams_[i].seam = overlap_.seams()[i];
+}
+
+void Coordinator::resume(int section, const nlohmann::json& what,
+                         std::span<const std::byte> pixels) {
+    Progress& progress = sections_.at(static_cast<std::size_t>(section));
+    SectionRecord& record = progress.record;
+    const Rect& render = record.section.render;
+    canvas_.place(render, pixels, record.section.keep);
+    overlap_.take(section, render, pixels);
+    record.rank = what.at("rank");
+    record.host = what.at("host");
+    record.start = what.at("start");
+    record.end = what.at("end");
+    record.wall_seconds = what.at("wall_seconds");
+    record.cpu_seconds = what.at("cpu_seconds");
+    record.attempts = what.at("attempts");
+    record.resumed = true;
+    progress.done = true;
+    ++sections_done_;
+    pixels_done_ += static_cast<double>(record.section.keep.area());
+    schedule_.finished(section);
+    for (const int seam : overlap_.finish(section)) check_seam(seam);
+}
+
+void Coordinator::start() {
+    const nlohmann::json head{
+        {"povray", setup_.job.povray},
+        {"user_arguments", setup_.job.user_arguments},
+        {"format_arguments", setup_.job.format_arguments},
+        {"threads", setup_.job.threads},
+        {"block", setup_.job.block},
+        {"width", setup_.image.width},
+        {"height", setup_.image.height},
+        {"timeout_seconds",
+         setup_.timeout_seconds ? nlohmann::json(*setup_.timeout_seconds) : nlohmann::json()}};
+    for (int rank = 0; rank < static_cast<int>(setup_.ranks.size()); ++rank)
+        transport_.send({MessageKind::job, rank, head, {}});
+    assign_to_all();
+}
+
+void Coordinator::assign_to_all() {
+    // One each in turn, so that a first rank does not take what would fill the others' cores.
+    for (bool given = true; given;) {
+        given = false;
+        for (int rank = 0; rank < static_cast<int>(setup_.ranks.size()); ++rank) {
+            const int before = under_way_[static_cast<std::size_t>(rank)];
+            assign_to(rank);
+            given = given || under_way_[static_cast<std::size_t>(rank)] != before;
+        }
+    }
+}
+
+void Coordinator::assign_to(int worker) {
+    int& under_way = under_way_[static_cast<std::size_t>(worker)];
+    if (under_way >= setup_.in_flight) return;
+    const std::optional<int> next = schedule_.next(worker);
+    if (!next) return;
+    Progress& progress = sections_[static_cast<std::size_t>(*next)];
+    SectionRecord& record = progress.record;
+    record.rank = worker;
+    record.host = setup_.ranks[static_cast<std::size_t>(worker)].host;
+    record.start = clock_();
+    record.attempts = schedule_.attempts(*next);
+    progress.under_way = true;
+    progress.fraction = 0;
+    if (under_way++ == 0) busy_since_[static_cast<std::size_t>(worker)] = record.start;
+    ++totals_.launches;
+    if (record.attempts > 1) ++totals_.retries;
+    transport_.send({MessageKind::assign,
+                     worker,
+                     {{"section", *next},
+                      {"attempt", record.attempts},
+                      {"keep", rect_to_json(record.section.keep)},
+                      {"render", rect_to_json(record.section.render)}},
+                     {}});
+}
+
+void Coordinator::handle(const Message& message) {
+    switch (message.kind) {
+        case MessageKind::progress:
+            section_of(message).fraction = message.head.at("fraction");
+            break;
+        case MessageKind::band:
+            take_band(message);
+            break;
+        case MessageKind::done:
+            take_done(message);
+            break;
+        case MessageKind::failed:
+            take_failed(message);
+            break;
+        default:
+            throw std::runtime_error("the coordinator got a message that is not for it");
+    }
+}
+
+Coordinator::Progress& Coordinator::section_of(const Message& message) {
+    const int id = message.head.at("section");
+    if (id < 0 || id >= static_cast<int>(sections_.size()))
+        throw std::runtime_error(fmt::format("rank {} sent an unknown section", message.peer));
+    Progress& progress = sections_[static_cast<std::size_t>(id)];
+    if (!progress.under_way || progress.record.rank != message.peer ||
+        progress.record.attempts != message.head.at("attempt").get<int>())
+        throw std::runtime_error(
+            fmt::format("rank {} sent section {} that it was not given", message.peer, id));
+    return progress;
+}
+
+void Coordinator::take_band(const Message& message) {
+    Progress& progress = section_of(message);
+    const Section& section = progress.record.section;
+    const Rect rect = rect_from_json(message.head.at("rect"));
+    if (intersect(rect, section.render) != rect)
+        throw std::runtime_error(
+            fmt::format("rank {} sent pixels outside of section {}", message.peer, section.id));
+    if (progress.seam >= 0) {
+        // What it rendered around the seam is compared with what its two sections have there.
+        const Seam& seam = overlap_.seams()[static_cast<std::size_t>(progress.seam)];
+        const Rect ring =
+            grow(section.keep, progress.disagreement.halo - 1, setup_.partition.request.region);
+        for (const int side : {seam.a, seam.b}) {
+            const Rect around =
+                intersect(ring, setup_.partition.sections[static_cast<std::size_t>(side)].keep);
+            for (const Rect& part : {Rect{around.x0, around.y0, section.keep.x0, around.y1},
+                                     Rect{section.keep.x1, around.y0, around.x1, around.y1},
+                                     Rect{around.x0, around.y0, around.x1, section.keep.y0},
+                                     Rect{around.x0, section.keep.y1, around.x1, around.y1}}) {
+                const Difference difference =
+                    differing_pixels(canvas_, rect, message.body, intersect(part, around));
+                progress.disagreement.differing += difference.pixels;
+                progress.disagreement.max_difference =
+                    std::max(progress.disagreement.max_difference, difference.largest);
+            }
+        }
+        progress.repaired.resize(static_cast<std::size_t>(section.keep.area()) *
+                                 canvas_.layout().bytes_per_pixel());
+        copy_pixels(rect, message.body, section.keep, progress.repaired,
+                    canvas_.layout().bytes_per_pixel());
+        return;
+    }
+    canvas_.place(rect, message.body, section.keep);
+    overlap_.take(section.id, rect, message.body);
+    if (journal_ != nullptr) journal_->take(section.id, section.render, rect, message.body);
+}
+
+void Coordinator::take_done(const Message& message) {
+    Progress& progress = section_of(message);
+    SectionRecord& record = progress.record;
+    record.end = clock_();
+    record.wall_seconds = message.head.at("wall_seconds");
+    record.cpu_seconds = message.head.at("cpu_seconds");
+    totals_.cpu_seconds += record.cpu_seconds;
+    for (const std::string& warning : message.head.at("warnings").get<std::vector<std::string>>())
+        if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end())
+            warnings_.push_back(warning);
+    progress.under_way = false;
+    progress.done = true;
+    ++sections_done_;
+    pixels_done_ += static_cast<double>(record.section.keep.area());
+    const auto worker = static_cast<std::size_t>(message.peer);
+    RankRecord& rank = setup_.ranks[worker];
+    ++rank.sections;
+    if (--under_way_[worker] == 0) rank.busy_seconds += record.end - busy_since_[worker];
+    if (progress.seam >= 0) {
+        schedule_.finished(record.section.id);
+        check_repair(progress);
+    } else {
+        if (journal_ != nullptr) journal_->finish(record.section.id, about(record));
+        schedule_.finished(record.section.id);
+        for (const int seam : overlap_.finish(record.section.id)) check_seam(seam);
+    }
+    assign_to(message.peer);
+}
+
+void Coordinator::take_failed(const Message& message) {
+    Progress& progress = section_of(message);
+    const int id = progress.record.section.id;
+    const auto worker = static_cast<std::size_t>(message.peer);
+    totals_.cpu_seconds += message.head.at("cpu_seconds").get<double>();
+    progress.under_way = false;
+    if (--under_way_[worker] == 0)
+        setup_.ranks[worker].busy_seconds += clock_() - busy_since_[worker];
+    if (schedule_.attempts(id) > setup_.retries)
+        throw Failure(Exit::scene, fmt::format("section {} failed {} times, last on {}: {}", id,
+                                               schedule_.attempts(id), setup_.ranks[worker].host,
+                                               message.head.at("why").get<std::string>()));
+    schedule_.failed(id, message.peer);
+    assign_to_all();
+}
+
+void Coordinator::check_seam(int seam) {
+    SeamRecord& record = seams_[static_cast<std::size_t>(seam)];
+    record = overlap_.compare(seam, canvas_);
+    if (record.differing > 0) repair(seam, record.halo * 2);
+}
+
+void Coordinator::repair(int seam, int halo) {
+    Progress again;
+    again.seam = seam;
+    again.record.section = repair_section(static_cast<int>(sections_.size()),
+                                          overlap_.seams()[static_cast<std::size_t>(seam)], halo,
+                                          setup_.partition.request.region);
+    again.disagreement.halo = halo;
+    sections_.push_back(again);
+    schedule_.add(again.record.section.id);
+    assign_to_all();
+}
+
+void Coordinator::check_repair(Progress& done) {
+    // `done` dangles as soon as repair() adds a section.
+    const SeamRecord found = done.disagreement;
+    const int seam = done.seam;
+    SeamRecord& record = seams_[static_cast<std::size_t>(seam)];
+    record.halo = found.halo;
+    if (found.differing > 0 && found.halo * 2 <= setup_.widest_halo) repair(seam, found.halo * 2);
+}
+
+void Coordinator::place_repairs() {
+    std::vector<const Progress*> repairs;
+    for (const Progress& progress : sections_)
+        if (progress.seam >= 0) repairs.push_back(&progress);
+    std::sort(repairs.begin(), repairs.end(), [](const Progress* a, const Progress* b) {
+        return std::pair(a->seam, a->disagreement.halo) < std::pair(b->seam, b->disagreement.halo);
+    });
+    for (const Progress* repair : repairs) {
+        const Rect& keep = repair->record.section.keep;
+        canvas_.place(keep, repair->repaired, keep);
+    }
+}
+
+void Coordinator::stop_workers() {
+    for (int rank = 0; rank < static_cast<int>(setup_.ranks.size()); ++rank)
+        transport_.send({MessageKind::stop, rank, nlohmann::json::object(), {}});
+}
+
+double Coordinator::fraction() const {
+    double done = 0, all = 0;
+    for (const Progress& progress : sections_) {
+        const auto area = static_cast<double>(progress.record.section.keep.area());
+        all += area;
+        done += progress.done ? area : progress.under_way ? area * progress.fraction : 0;
+    }
+    return all > 0 ? done / all : 1;
+}
+
+void Coordinator::fill(RunRecord& record) const {
+    record.sections.clear();
+    for (const Progress& progress : sections_) record.sections.push_back(progress.record);
+    record.seams = seams_;
+    record.ranks = setup_.ranks;
+    record.totals.launches += totals_.launches;
+    record.totals.retries += totals_.retries;
+    record.totals.cpu_seconds += totals_.cpu_seconds;
+    for (const std::string& warning : warnings_)
+        if (std::find(record.warnings.begin(), record.warnings.end(), warning) ==
+            record.warnings.end())
+            record.warnings.push_back(warning);
+}
+
+}  // namespace mpipov

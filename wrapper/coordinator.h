@@ -1,0 +1,98 @@
+// The coordinating half of the protocol: hands sections out, places what comes back, checks the
+// overlaps and renders seams again where they disagree. Knows no MPI, no processes and no clock of
+// its own; it is driven by handle() and never blocks.
+#pragma once
+
+#include "journal.h"
+#include "overlap.h"
+#include "povray_command.h"
+#include "run_record.h"
+#include "schedule.h"
+#include "stitch.h"
+#include "transport.h"
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mpipov {
+
+struct CoordinatorSetup {
+    Partition partition;
+    Policy policy = Policy::dynamic;
+    JobCommand job;
+    ImageSize image;
+    std::vector<RankRecord> ranks;  // slots 0: renders nothing
+    int in_flight = 1;              // launches under way per rank
+    int retries = 2;
+    std::optional<double> timeout_seconds;
+    int widest_halo = 32;  // a seam whose overlap still disagrees then is left as it is
+};
+
+class Coordinator {
+  public:
+    // `clock` gives seconds since the run began; `journal` may be null.
+    Coordinator(CoordinatorSetup setup, Transport& transport, Canvas& canvas, Journal* journal,
+                std::function<double()> clock);
+
+    // A section that an earlier run finished; before start().
+    void resume(int section, const nlohmann::json& about, std::span<const std::byte> pixels);
+
+    void start();
+    // Throws Failure where a section failed once too often, std::runtime_error where a message is
+    // not what the protocol allows.
+    void handle(const Message& message);
+    bool finished() const { return schedule_.all_finished(); }
+    // Once finished: puts the seams that were rendered again into the canvas, in an order that does
+    // not depend on which rank was first.
+    void place_repairs();
+    void stop_workers();
+
+    // Of the region's pixels, those rendered so far; sections under way count by their progress.
+    double fraction() const;
+    int sections_done() const { return sections_done_; }
+    int sections_total() const { return static_cast<int>(sections_.size()); }
+
+    // Sections, seams, ranks, totals and warnings; the rest is the caller's.
+    void fill(RunRecord& record) const;
+
+  private:
+    struct Progress {
+        SectionRecord record;
+        int seam = -1;  // >= 0: this section renders that seam again
+        bool under_way = false, done = false;
+        double fraction = 0;
+        SeamRecord disagreement;          // of a seam rendered again with its surroundings
+        std::vector<std::byte> repaired;  // its pixels
+    };
+
+    void assign_to(int worker);
+    void assign_to_all();
+    void take_band(const Message& message);
+    void take_done(const Message& message);
+    void take_failed(const Message& message);
+    void check_seam(int seam);
+    void check_repair(Progress& repair);
+    void repair(int seam, int halo);
+    Progress& section_of(const Message& message);
+
+    CoordinatorSetup setup_;
+    Transport& transport_;
+    Canvas& canvas_;
+    Journal* journal_;
+    std::function<double()> clock_;
+    Schedule schedule_;
+    OverlapCheck overlap_;
+    std::vector<Progress> sections_;  // by id
+    std::vector<SeamRecord> seams_;
+    std::vector<int> under_way_;      // launches, by rank
+    std::vector<double> busy_since_;  // by rank
+    Totals totals_;
+    std::vector<std::string> warnings_;
+    int sections_done_ = 0;
+    double pixels_done_ = 0;
+};
+
+}  // namespace mpipov

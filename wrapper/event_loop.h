@@ -1,0 +1,28 @@
+// The loop that every rank runs: takes messages to where they belong and looks after the launches,
+// and sleeps in between (a blocking receive would burn a core).
+#pragma once
+
+#include "coordinator.h"
+#include "transport.h"
+#include "worker.h"
+
+#include <functional>
+
+namespace mpipov {
+
+struct EventLoop {
+    Transport& transport;
+    Worker& worker;
+    Coordinator* coordinator = nullptr;     // on rank 0
+    std::function<void()> every_step = {};  // progress; may throw
+};
+
+// Until the coordinator has finished (rank 0) or the worker was told to stop (others). Throws
+// Failure(Exit::interrupted) on a signal, after the launches were ended, and what the coordinator
+// throws.
+void run_event_loop(const EventLoop& loop);
+
+// Waits for one message of a worker that is starting (hello or refused), at most `seconds`.
+std::optional<Message> wait_for_message(Transport& transport, double seconds);
+
+}  // namespace mpipov

@@ -1,0 +1,64 @@
+// Finished sections on disk, so that a run that was interrupted can go on.
+//
+// A journal is a folder: journal.json says what is rendered and how it is cut up, sections.jsonl
+// has one line for each finished section with the SHA-1 of its pixels, N.pixels has those pixels. A
+// section counts only with its line, which is written last.
+#pragma once
+
+#include "image_file.h"
+#include "section.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mpipov {
+
+class Journal {
+  public:
+    // Starts a new journal in `folder`, in place of an old one. Throws Failure(Exit::file).
+    static Journal create(const std::filesystem::path& folder, const nlohmann::json& identity,
+                          const nlohmann::json& plan);
+    // Opens the one that an earlier run left. Throws Failure(Exit::usage) where there is none or
+    // where `identity` differs in a value, naming it.
+    static Journal open(const std::filesystem::path& folder, const nlohmann::json& identity);
+
+    const nlohmann::json& plan() const { return plan_; }
+
+    // The rows of a section as they come in; a first row begins the section anew.
+    void take(int section, const Rect& render, const Rect& rect, std::span<const std::byte> pixels);
+    // The section is complete; `about` comes back from finished().
+    void finish(int section, const nlohmann::json& about);
+
+    struct Finished {
+        int section = 0;
+        nlohmann::json about;
+    };
+    // What earlier runs finished and whose pixels are still as they were.
+    std::vector<Finished> finished() const;
+    // The pixels of such a section, all rows of `render`.
+    std::vector<std::byte> read(int section) const;
+
+    // Removes the folder: the result is complete.
+    void remove();
+
+    const std::filesystem::path& folder() const { return folder_; }
+
+  private:
+    explicit Journal(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    std::filesystem::path pixel_file(int section) const;
+
+    std::filesystem::path folder_;
+    nlohmann::json plan_;
+    std::map<int, std::ofstream> open_;
+};
+
+// 40 hexadecimal digits; empty where the file cannot be read.
+std::string sha1_of_file(const std::filesystem::path& file);
+
+}  // namespace mpipov

@@ -1,0 +1,146 @@
+// mpipov: parses the command line, and runs the coordinator (rank 0) and a worker (every rank).
+#include "event_loop.h"
+#include "failure.h"
+#include "interrupt.h"
+#include "mpi_transport.h"
+#include "options.h"
+#include "probe.h"
+#include "render_job.h"
+#include "scratch.h"
+#include "slots.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <mpi.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace mpipov;
+
+std::string mpi_version() {
+    std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
+    int length = 0;
+    MPI_Get_library_version(text.data(), &length);
+    const std::string whole(text.data(), static_cast<std::size_t>(length));
+    // "MPICH Version:      4.0.2\nMPICH Release date: ..."
+    std::string line = whole.substr(0, whole.find('\n'));
+    std::string name = line.substr(0, line.find(' '));
+    return name + " " + line.substr(line.find_last_of(" \t") + 1);
+}
+
+std::string host_name() {
+    std::array<char, 256> name{};
+    gethostname(name.data(), name.size() - 1);
+    return name.data();
+}
+
+void print_versions(const std::string& povray) {
+    std::string povray_line;
+    try {
+        povray_line = povray_version(povray);
+    } catch (const Failure& failure) {
+        povray_line = fmt::format("none ({})", failure.what());
+    }
+    fmt::print("mpipov {}\nPOV-Ray {}\n{}\nOpenImageIO {}\n", MPIPOV_VERSION, povray_line,
+               mpi_version(), OIIO_VERSION_STRING);
+}
+
+RankRecord about_this_rank(const Options& options, int rank) {
+    const HostShare share = host_share();
+    return {rank, host_name(), options.slots.value_or(fair_slots(share.cpus, share.local_rank)), 0,
+            0};
+}
+
+// What every rank but 0 does.
+void serve(const Options& options, const RankRecord& self, Transport& transport, Worker& worker) {
+    try {
+        const std::string povray = povray_version(options.povray);
+        transport.send({MessageKind::hello,
+                        0,
+                        {{"slots", self.slots}, {"host", self.host}, {"povray", povray}},
+                        {}});
+        run_event_loop({transport, worker});
+    } catch (const Failure& failure) {
+        transport.send({MessageKind::refused,
+                        0,
+                        {{"host", self.host},
+                         {"why", failure.what()},
+                         {"code", static_cast<int>(failure.code())}},
+                        {}});
+    }
+}
+
+// Tells the other ranks to stop and hears them out: MPI must not be left with unread messages.
+void dismiss(Transport& transport) {
+    constexpr double patience_seconds = 10;
+    for (int other = 1; other < transport.size(); ++other)
+        transport.send({MessageKind::stop, other, nlohmann::json::object(), {}});
+    for (int waiting = transport.size() - 1; waiting > 0;) {
+        const auto message = wait_for_message(transport, patience_seconds);
+        if (!message) return;
+        if (message->kind == MessageKind::bye) --waiting;
+    }
+}
+
+int run(const std::vector<std::string>& arguments, int rank) {
+    const Options options = parse_options(arguments);
+    if (options.help || options.version || options.manual) {
+        if (rank == 0 && options.help) fmt::print("{}", help_text());
+        if (rank == 0 && options.manual) fmt::print("{}", manual_page());
+        if (rank == 0 && options.version) print_versions(options.povray);
+        return 0;
+    }
+    const RankRecord self = about_this_rank(options, rank);
+    MpiTransport transport;
+    const ScratchFolder scratch(fmt::format("rank{}", rank));
+    Worker worker(transport, scratch.path());
+    if (rank != 0) {
+        serve(options, self, transport, worker);
+        transport.send({MessageKind::bye, 0, nlohmann::json::object(), {}});
+        return 0;
+    }
+    JobSetup setup;
+    setup.options = options;
+    setup.command = arguments;
+    setup.command.insert(setup.command.begin(), "mpipov");
+    setup.versions = {
+        {"mpipov", MPIPOV_VERSION}, {"mpi", mpi_version()}, {"openimageio", OIIO_VERSION_STRING}};
+    setup.rank0 = self;
+    try {
+        run_job(setup, transport, worker);
+    } catch (...) {
+        worker.stop();
+        dismiss(transport);
+        throw;
+    }
+    dismiss(transport);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    block_interrupts();
+    MPI_Init(&argc, &argv);
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    int code = 0;
+    try {
+        code = run(std::vector<std::string>(argv + 1, argv + argc), rank);
+    } catch (const Failure& failure) {
+        // Of what every rank finds out by itself, one says it.
+        if (rank == 0) fmt::print(stderr, "mpipov: {}\n", failure.what());
+        code = static_cast<int>(failure.code());
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "mpipov: rank {}: {}\n", rank, error.what());
+        MPI_Abort(MPI_COMM_WORLD, static_cast<int>(Exit::interrupted));
+    }
+    MPI_Finalize();
+    return code;
+}

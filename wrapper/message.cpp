@@ -1,0 +1,63 @@
+#include "message.h"
+
+#include "section.h"
+
+#include <array>
+#include <cstring>
+#include <stdexcept>
+
+namespace mpipov {
+namespace {
+
+// Wire form: kind (1 byte), length of the head (4 bytes, little-endian), head, body.
+constexpr std::size_t prefix_bytes = 5;
+
+}  // namespace
+
+std::vector<std::byte> pack(const Message& message) {
+    const std::string head =
+        message.head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    std::vector<std::byte> bytes(prefix_bytes + head.size() + message.body.size());
+    bytes[0] = static_cast<std::byte>(message.kind);
+    for (std::size_t i = 0; i < 4; ++i)
+        bytes[1 + i] = static_cast<std::byte>((head.size() >> (8 * i)) & 0xffU);
+    std::memcpy(bytes.data() + prefix_bytes, head.data(), head.size());
+    if (!message.body.empty())
+        std::memcpy(bytes.data() + prefix_bytes + head.size(), message.body.data(),
+                    message.body.size());
+    return bytes;
+}
+
+Message unpack(std::span<const std::byte> bytes, int from) {
+    if (bytes.size() < prefix_bytes || bytes.size() > max_message_bytes)
+        throw std::runtime_error("a message between ranks has an impossible size");
+    if (static_cast<MessageKind>(bytes[0]) > MessageKind::bye)
+        throw std::runtime_error("a message between ranks is of an unknown kind");
+    std::size_t head_size = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        head_size |= std::to_integer<std::size_t>(bytes[1 + i]) << (8 * i);
+    if (head_size > bytes.size() - prefix_bytes)
+        throw std::runtime_error("a message between ranks is cut short");
+    Message message;
+    message.kind = static_cast<MessageKind>(bytes[0]);
+    message.peer = from;
+    const auto head = bytes.subspan(prefix_bytes, head_size);
+    const auto* text = reinterpret_cast<const char*>(head.data());
+    message.head = nlohmann::json::parse(text, text + head.size(), nullptr, false);
+    if (message.head.is_discarded())
+        throw std::runtime_error("a message between ranks has an unreadable head");
+    const auto body = bytes.subspan(prefix_bytes + head_size);
+    message.body.assign(body.begin(), body.end());
+    return message;
+}
+
+nlohmann::json rect_to_json(const Rect& r) {
+    return nlohmann::json::array({r.x0, r.y0, r.x1, r.y1});
+}
+
+Rect rect_from_json(const nlohmann::json& j) {
+    const auto v = j.get<std::array<int, 4>>();
+    return {v[0], v[1], v[2], v[3]};
+}
+
+}  // namespace mpipov

@@ -1,0 +1,303 @@
+#include "options.h"
+
+#include "failure.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <array>
+#include <functional>
+
+namespace mpipov {
+namespace {
+
+constexpr const char* usage_line =
+    "[mpiexec -n RANKS] mpipov [--option ...] SCENE.pov|SCENE.ini [POV-Ray's own options]";
+constexpr const char* summary =
+    "Renders a POV-Ray scene in sections, side by side on many cores or hosts, with the POV-Ray "
+    "that is installed, and puts the sections together to the image that one POV-Ray would have "
+    "written. Every argument that begins with -- is mpipov's own; all others are POV-Ray's.";
+
+struct Row {
+    const char* group;
+    const char* name;   // without --
+    const char* value;  // how the value is called; nullptr: a flag
+    const char* text;
+    const char* preset;
+    void (*apply)(Options&, const std::string& value);
+};
+
+[[noreturn]] void bad_value(const std::string& value, const char* wanted) {
+    throw Failure(Exit::usage, fmt::format("'{}' is not {}", value, wanted));
+}
+
+int whole(const std::string& value, int least, const char* wanted) {
+    std::size_t used = 0;
+    int number = 0;
+    try {
+        number = std::stoi(value, &used);
+    } catch (const std::exception&) {
+        bad_value(value, wanted);
+    }
+    if (used != value.size() || number < least) bad_value(value, wanted);
+    return number;
+}
+
+std::optional<int> whole_or_auto(const std::string& value, const char* wanted) {
+    if (value == "auto") return {};
+    return whole(value, 1, wanted);
+}
+
+void set_seams(Options& o, const std::string& value) {
+    if (value == "auto") {
+        o.seams.reset();
+        return;
+    }
+    for (const Seams seams : {Seams::aligned, Seams::halo, Seams::plain})
+        if (value == to_string(seams)) {
+            o.seams = seams;
+            return;
+        }
+    if (value.rfind("halo:", 0) == 0) {
+        o.seams = Seams::halo;
+        o.halo = whole(value.substr(5), 1, "a halo: a whole number of pixels from 1");
+        return;
+    }
+    bad_value(value, "one of auto, aligned, halo, halo:N, plain");
+}
+
+void set_shape(Options& o, const std::string& value) {
+    if (value == "auto") {
+        o.shape.reset();
+        return;
+    }
+    for (const Shape shape : {Shape::columns, Shape::rows, Shape::tiles})
+        if (value == to_string(shape)) {
+            o.shape = shape;
+            return;
+        }
+    bad_value(value, "one of auto, columns, rows, tiles");
+}
+
+void set_schedule(Options& o, const std::string& value) {
+    for (const Policy policy : {Policy::static_, Policy::dynamic})
+        if (value == to_string(policy)) {
+            o.schedule = policy;
+            return;
+        }
+    bad_value(value, "one of static, dynamic");
+}
+
+void set_progress(Options& o, const std::string& value) {
+    if (value == "auto")
+        o.progress = ProgressStyle::automatic;
+    else if (value == "plain")
+        o.progress = ProgressStyle::plain;
+    else if (value == "none")
+        o.progress = ProgressStyle::none;
+    else
+        bad_value(value, "one of auto, plain, none");
+}
+
+void set_timeout(Options& o, const std::string& value) {
+    if (value == "auto") {
+        o.timeout_seconds.reset();
+        return;
+    }
+    std::size_t used = 0;
+    double seconds = 0;
+    try {
+        seconds = std::stod(value, &used);
+    } catch (const std::exception&) {
+        bad_value(value, "auto or a number of seconds");
+    }
+    if (used != value.size() || !(seconds > 0)) bad_value(value, "auto or a number of seconds");
+    o.timeout_seconds = seconds;
+}
+
+constexpr const char* cutting = "Cutting the image up";
+constexpr const char* sharing = "Sharing the work";
+constexpr const char* files = "Files";
+constexpr const char* faults = "When something goes wrong";
+constexpr const char* saying = "What is said";
+
+constexpr std::array rows{
+    Row{cutting, "sections", "G", "into how many sections", "auto",
+        [](Options& o, const std::string& v) {
+            o.sections = whole_or_auto(v, "a number of sections: auto or a whole number from 1");
+        }},
+    Row{cutting, "shape", "SHAPE",
+        "columns, rows or tiles; auto: columns while the image has enough of them, then tiles",
+        "auto", set_shape},
+    Row{cutting, "seams", "KIND",
+        "aligned: edges on POV-Ray's 32-pixel block grid, bit for bit the default serial render; "
+        "halo[:N]: edges anywhere and N (2) pixels of overlap, as a serial render in one block; "
+        "plain: edges anywhere; auto: aligned with antialiasing of method 1, else plain",
+        "auto", set_seams},
+    Row{sharing, "schedule", "HOW",
+        "static: each rank has its sections from the start; dynamic: the next section goes to "
+        "whoever is free",
+        "dynamic", set_schedule},
+    Row{sharing, "slots", "N", "cores that this rank may use at once; auto: its share of its host",
+        "auto",
+        [](Options& o, const std::string& v) {
+            o.slots = whole_or_auto(v, "a number of cores: auto or a whole number from 1");
+        }},
+    Row{sharing, "threads", "N", "POV-Ray's threads in one launch", "auto",
+        [](Options& o, const std::string& v) {
+            o.threads = whole_or_auto(v, "a number of threads: auto or a whole number from 1");
+        }},
+    Row{sharing, "in-flight", "K", "launches under way per rank, to hide that each starts idle",
+        "auto",
+        [](Options& o, const std::string& v) {
+            o.in_flight = whole_or_auto(v, "a number of launches: auto or a whole number from 1");
+        }},
+    Row{sharing, "dedicated-coordinator", nullptr, "rank 0 renders nothing, as in MPIPOV2", nullptr,
+        [](Options& o, const std::string&) { o.dedicated_coordinator = true; }},
+    Row{files, "record", "FILE", "where the record of the run goes", "run.json beside the image",
+        [](Options& o, const std::string& v) { o.record = v; }},
+    Row{files, "work-dir", "DIR", "where finished sections are kept until the image is complete",
+        "beside the image", [](Options& o, const std::string& v) { o.work_dir = v; }},
+    Row{files, "povray", "PATH", "which POV-Ray to run", "povray",
+        [](Options& o, const std::string& v) { o.povray = v; }},
+    Row{faults, "resume", nullptr, "go on from what an interrupted run left in its work folder",
+        nullptr, [](Options& o, const std::string&) { o.resume = true; }},
+    Row{faults, "timeout", "S", "seconds after which a launch of POV-Ray counts as hung", "auto",
+        set_timeout},
+    Row{faults, "retries", "N", "how often a section that failed is tried again", "2",
+        [](Options& o, const std::string& v) {
+            o.retries = whole(v, 0, "a number of retries: a whole number from 0");
+        }},
+    Row{saying, "dry-run", nullptr, "print the plan and its predicted cost as JSON, and stop",
+        nullptr, [](Options& o, const std::string&) { o.dry_run = true; }},
+    Row{saying, "progress", "STYLE",
+        "auto: a live line on a terminal, plain lines elsewhere; "
+        "plain; none",
+        "auto", set_progress},
+    Row{saying, "help", nullptr, "this text", nullptr,
+        [](Options& o, const std::string&) { o.help = true; }},
+    Row{saying, "version", nullptr, "the versions of mpipov, POV-Ray, MPI and OpenImageIO", nullptr,
+        [](Options& o, const std::string&) { o.version = true; }},
+    Row{saying, "manual", nullptr, "the manual page, as troff source", nullptr,
+        [](Options& o, const std::string&) { o.manual = true; }},
+};
+
+const Row* find_row(const std::string& name) {
+    for (const Row& row : rows)
+        if (name == row.name) return &row;
+    return nullptr;
+}
+
+// POV-Ray's arguments are taken out first: to CLI11 they would be short options.
+std::vector<std::string> take_ours(const std::vector<std::string>& arguments,
+                                   std::vector<std::string>& povray_arguments) {
+    std::vector<std::string> ours;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const std::string& argument = arguments[i];
+        if (argument == "--") {
+            povray_arguments.insert(povray_arguments.end(), arguments.begin() + i + 1,
+                                    arguments.end());
+            break;
+        }
+        if (argument.rfind("--", 0) != 0) {
+            povray_arguments.push_back(argument);
+            continue;
+        }
+        ours.push_back(argument);
+        const Row* row = find_row(argument.substr(2));
+        if (row != nullptr && row->value != nullptr && i + 1 < arguments.size())
+            ours.push_back(arguments[++i]);
+    }
+    return ours;
+}
+
+void add_rows(CLI::App& app, Options& options) {
+    for (const Row& row : rows) {
+        const std::string flag = fmt::format("--{}", row.name);
+        const auto apply = [&row, &options](const std::string& value) {
+            try {
+                row.apply(options, value);
+            } catch (const Failure& failure) {
+                throw CLI::ValidationError(fmt::format("--{}", row.name), failure.what());
+            }
+        };
+        CLI::Option* option = row.value == nullptr
+                                  ? app.add_flag_function(
+                                        flag, [apply](std::int64_t) { apply(""); }, row.text)
+                                  : app.add_option_function<std::string>(flag, apply, row.text);
+        option->group(row.group);
+        if (row.value != nullptr) option->type_name(row.value);
+        if (row.preset != nullptr) option->default_str(row.preset);
+    }
+}
+
+std::string troff(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '-') out += '\\';
+        out += c;
+    }
+    return out;
+}
+
+}  // namespace
+
+Options parse_options(const std::vector<std::string>& arguments) {
+    Options options;
+    std::vector<std::string> ours = take_ours(arguments, options.povray_arguments);
+    CLI::App app;
+    app.set_help_flag();
+    add_rows(app, options);
+    std::reverse(ours.begin(), ours.end());  // as CLI11 wants a vector
+    try {
+        app.parse(ours);
+    } catch (const CLI::ExtrasError&) {
+        for (const std::string& argument : ours)
+            if (argument.rfind("--", 0) == 0 &&
+                find_row(argument.substr(2, argument.find('=') - 2)) == nullptr)
+                throw Failure(Exit::usage,
+                              fmt::format("unknown option '{}': see mpipov --help", argument));
+        throw Failure(Exit::usage, "an option got a value too many: see mpipov --help");
+    } catch (const CLI::ParseError& error) {
+        throw Failure(Exit::usage, error.what());
+    }
+    return options;
+}
+
+std::string help_text() {
+    Options options;
+    CLI::App app;
+    app.set_help_flag();
+    add_rows(app, options);
+    const auto formatter = std::make_shared<CLI::Formatter>();
+    formatter->column_width(32);
+    app.formatter(formatter);
+    return fmt::format("{}\n\nUsage: {}\n{}", summary, usage_line,
+                       formatter->make_groups(&app, CLI::AppFormatMode::Normal));
+}
+
+std::string manual_page() {
+    std::string page = fmt::format(
+        ".TH MPIPOV 1 \"\" \"mpipov {}\"\n.SH NAME\nmpipov \\- render a POV\\-Ray scene in "
+        "sections "
+        "over MPI\n.SH SYNOPSIS\n{}\n.SH DESCRIPTION\n{}\n",
+        MPIPOV_VERSION, troff(usage_line), troff(summary));
+    const char* group = "";
+    for (const Row& row : rows) {
+        if (std::string_view(group) != row.group) {
+            group = row.group;
+            page += fmt::format(".SH {}\n", troff(group));
+        }
+        page += fmt::format(".TP\n\\fB\\-\\-{}\\fR", troff(row.name));
+        if (row.value != nullptr) page += fmt::format(" \\fI{}\\fR", row.value);
+        page += fmt::format("\n{}", troff(row.text));
+        if (row.preset != nullptr) page += fmt::format(" (default: {})", troff(row.preset));
+        page += '\n';
+    }
+    page +=
+        ".SH EXIT STATUS\n0 ok, 2 usage, 3 the scene or POV\\-Ray, 4 a file or the disk, "
+        "5 interrupted or a rank was lost (\\fB\\-\\-resume\\fR goes on).\n";
+    return page;
+}
+
+}  // namespace mpipov

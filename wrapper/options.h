@@ -1,0 +1,47 @@
+// mpipov's command line. One table of options serves parsing, --help and the manual page.
+#pragma once
+
+#include "schedule.h"
+#include "section.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mpipov {
+
+enum class ProgressStyle { automatic, plain, none };
+
+struct Options {
+    Policy schedule = Policy::dynamic;
+    std::optional<int> sections;
+    std::optional<Shape> shape;
+    std::optional<Seams> seams;
+    int halo = 2;
+    std::optional<int> threads;
+    std::optional<int> in_flight;
+    std::optional<int> slots;
+    bool dedicated_coordinator = false;
+    std::filesystem::path work_dir;  // empty: beside the output
+    bool resume = false;
+    std::optional<double> timeout_seconds;
+    int retries = 2;
+    bool dry_run = false;
+    ProgressStyle progress = ProgressStyle::automatic;
+    std::filesystem::path record;  // empty: run.json beside the output
+    std::string povray = "povray";
+
+    bool help = false, version = false, manual = false;
+    std::vector<std::string> povray_arguments;  // everything that is not ours, in order
+};
+
+// Every argument that begins with `--` is ours (its value after `=` or as the next argument), all
+// others are POV-Ray's; after a lone `--` everything is. Throws Failure(Exit::usage).
+Options parse_options(const std::vector<std::string>& arguments);
+
+std::string help_text();
+std::string manual_page();  // troff, for man(1)
+
+}  // namespace mpipov

@@ -1,0 +1,75 @@
+#include "output_place.h"
+
+#include "failure.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <system_error>
+
+namespace mpipov {
+namespace {
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+    return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
+// A name beside `file` that nobody else uses; a reader that looks for images does not see it.
+std::filesystem::path part_name(const std::filesystem::path& file) {
+    return folder_of(file) /
+           fmt::format(".{}.{}.part", file.filename().string(), static_cast<long>(getpid()));
+}
+
+void check_file(const std::filesystem::path& file) {
+    const std::filesystem::path folder = folder_of(file);
+    if (!std::filesystem::exists(folder))
+        throw Failure(Exit::file, fmt::format("cannot write '{}': no such directory '{}'",
+                                              file.string(), folder.string()));
+    if (std::filesystem::is_directory(file))
+        throw Failure(Exit::file,
+                      fmt::format("cannot write '{}': it is a directory", file.string()));
+    // Access rights do not tell everything (a read-only file system, a full disk, root).
+    std::string trial = (folder / ".mpipov-XXXXXX").string();
+    const int descriptor = mkstemp(trial.data());
+    if (descriptor < 0)
+        throw Failure(Exit::file,
+                      fmt::format("cannot write '{}': {}", file.string(), std::strerror(errno)));
+    close(descriptor);
+    unlink(trial.c_str());
+}
+
+}  // namespace
+
+OutputPlace::OutputPlace(std::filesystem::path image, std::filesystem::path record,
+                         std::filesystem::path work_folder)
+    : image_(std::move(image)), record_(std::move(record)), work_folder_(std::move(work_folder)) {
+    if (record_.empty()) record_ = image_.parent_path() / "run.json";
+    if (work_folder_.empty()) work_folder_ = image_.string() + ".mpipov";
+}
+
+void OutputPlace::check() const {
+    check_file(image_);
+    check_file(record_);
+}
+
+void OutputPlace::write(const std::function<void(const std::filesystem::path&)>& encode) const {
+    const std::filesystem::path part = part_name(image_);
+    std::error_code error;
+    try {
+        encode(part);
+    } catch (const std::runtime_error& failure) {
+        std::filesystem::remove(part, error);
+        throw Failure(Exit::file, failure.what());
+    }
+    std::filesystem::rename(part, image_, error);
+    if (!error) return;
+    const std::string why = error.message();
+    std::filesystem::remove(part, error);
+    throw Failure(Exit::file, fmt::format("cannot write '{}': {}", image_.string(), why));
+}
+
+}  // namespace mpipov

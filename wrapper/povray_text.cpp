@@ -1,0 +1,257 @@
+#include "povray_text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <regex>
+
+namespace mpipov {
+namespace {
+
+constexpr std::size_t wrap_column = 80;
+// POV-Ray looks for a space in the last quarter of the line only.
+constexpr std::size_t shortest_wrapped_line = wrap_column * 3 / 4;
+
+std::vector<std::string> split_lines(std::string_view text) {
+    std::vector<std::string> lines;
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+        std::size_t end = text.find_first_of("\r\n", begin);
+        if (end == std::string_view::npos) end = text.size();
+        lines.emplace_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return lines;
+}
+
+bool continues(const std::string& line, const std::string& next) {
+    if (line.size() >= wrap_column) return true;
+    return line.size() >= shortest_wrapped_line && next.size() > 1 && next[0] == ' ' &&
+           next[1] != ' ';
+}
+
+std::string trim(std::string_view text) {
+    const auto begin = text.find_first_not_of(" \t\r\n");
+    if (begin == std::string_view::npos) return {};
+    return std::string(text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1));
+}
+
+int to_int(const std::string& text) {
+    int value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+}
+
+double to_double(const std::string& text) {
+    double value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+}
+
+std::optional<std::string> value_after(const std::string& line, std::string_view label) {
+    if (line.rfind(label, 0) != 0) return {};
+    return trim(std::string_view(line).substr(label.size()));
+}
+
+// "out.png, 24 bpp PNG" | "out.exr, 48 bpp with alpha EXR" | "out.png, grayscale PNG" |
+// "out.jpg, 24 bpp, quality 85% JPEG" | "out.tga, 24 bpp RLE Targa"
+void parse_output_line(const std::string& value, ImageOptions& options) {
+    static const std::regex shape(
+        R"(^(.*), (?:(\d+) bpp|grayscale)( with alpha)?(?:, quality (\d+)%)? (RLE )?(\S+)$)");
+    std::smatch match;
+    if (!std::regex_match(value, match, shape)) return;
+    options.to_standard_output = match[1] == "stdout";
+    options.output_file = match[1];
+    options.bits_per_pixel = to_int(match[2]);
+    options.alpha = match[3].matched;
+    options.jpeg_quality = to_int(match[4]);
+    options.rle = match[5].matched;
+    options.type = match[6];
+}
+
+// The time in brackets of "  Parse Time:   0 hours  0 minutes  0 seconds (0.014 seconds)".
+std::optional<double> bracketed_seconds(const std::string& line) {
+    static const std::regex shape(R"(\(([0-9.]+) seconds\))");
+    std::smatch match;
+    if (!std::regex_search(line, match, shape)) return {};
+    return to_double(match[1]);
+}
+
+double cpu_seconds(const std::string& line) {
+    static const std::regex shape(R"(with ([0-9.]+) CPU-seconds)");
+    std::smatch match;
+    return std::regex_search(line, match, shape) ? to_double(match[1]) : 0.0;
+}
+
+void parse_antialiasing(const std::string& value, Antialiasing& antialiasing) {
+    static const std::regex shape(R"(\(Method (\d+), Threshold ([0-9.]+), Depth (\d+))");
+    std::smatch match;
+    antialiasing.on = value.rfind("On", 0) == 0;
+    if (!std::regex_search(value, match, shape)) return;
+    antialiasing.method = to_int(match[1]);
+    antialiasing.threshold = to_double(match[2]);
+    antialiasing.depth = to_int(match[3]);
+}
+
+void parse_counters(const std::string& line, std::map<std::string, long long>& counters) {
+    static const std::regex shape(R"(([A-Z][A-Za-z ]*[A-Za-z]): +(\d+))");
+    for (std::sregex_iterator it(line.begin(), line.end(), shape), end; it != end; ++it) {
+        long long value = 0;
+        const std::string digits = (*it)[2];
+        std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        counters[(*it)[1]] = value;
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> unwrap_lines(std::string_view text) {
+    std::vector<std::string> lines;
+    std::string last_piece;  // as printed: whether a line goes on is told by its printed length
+    for (std::string& line : split_lines(text)) {
+        if (!lines.empty() && continues(last_piece, line))
+            lines.back() += line;
+        else
+            lines.push_back(line);
+        last_piece = std::move(line);
+    }
+    return lines;
+}
+
+std::optional<ImageOptions> parse_image_options(std::string_view text) {
+    static const std::regex resolution(
+        R"(^(\d+) by (\d+) \(rows (\d+) to (\d+), columns (\d+) to (\d+)\)\.?$)");
+    static const std::regex frames(R"(Initial Frame: +(\d+) +Final Frame: +(\d+))");
+    ImageOptions options;
+    bool found = false;
+    for (const std::string& line : unwrap_lines(text)) {
+        std::smatch match;
+        if (const auto value = value_after(line, "  Image resolution.....")) {
+            if (!std::regex_match(*value, match, resolution)) continue;
+            options.width = to_int(match[1]);
+            options.height = to_int(match[2]);
+            options.region = {to_int(match[5]) - 1, to_int(match[3]) - 1, to_int(match[6]),
+                              to_int(match[4])};
+            found = true;
+        } else if (const auto file = value_after(line, "  Output file..........")) {
+            parse_output_line(*file, options);
+        } else if (const auto dithering = value_after(line, "  Dithering............")) {
+            options.dithering = *dithering;
+        } else if (const auto input = value_after(line, "  Input file: ")) {
+            options.input_file = *input;
+        } else if (std::regex_search(line, match, frames)) {
+            options.animation = true;
+            options.first_frame = to_int(match[1]);
+            options.last_frame = to_int(match[2]);
+        }
+    }
+    if (!found) return {};
+    return options;
+}
+
+LaunchReport parse_report(std::string_view text) {
+    LaunchReport report;
+    double* cpu = nullptr;  // where the next "using N thread(s) with X CPU-seconds" belongs
+    for (const std::string& line : unwrap_lines(text)) {
+        if (const auto value = value_after(line, "  Antialiasing.........")) {
+            parse_antialiasing(*value, report.antialiasing);
+        } else if (line.rfind("  Parse Time:", 0) == 0) {
+            report.parse_seconds = bracketed_seconds(line).value_or(0);
+            cpu = &report.parse_cpu;
+        } else if (line.rfind("  Bounding Time:", 0) == 0) {
+            cpu = nullptr;
+        } else if (line.rfind("  Photon Time:", 0) == 0) {
+            const auto seconds = bracketed_seconds(line);
+            report.photons = seconds.has_value();
+            report.photon_seconds = seconds.value_or(0);
+            cpu = &report.photon_cpu;
+        } else if (line.rfind("  Radiosity Time:", 0) == 0) {
+            const auto seconds = bracketed_seconds(line);
+            report.radiosity = seconds.has_value();
+            report.radiosity_seconds = seconds.value_or(0);
+            cpu = &report.radiosity_cpu;
+        } else if (line.rfind("  Trace Time:", 0) == 0) {
+            report.trace_seconds = bracketed_seconds(line).value_or(0);
+            cpu = &report.trace_cpu;
+        } else if (line.find("CPU-seconds") != std::string::npos) {
+            if (cpu != nullptr) *cpu = cpu_seconds(line);
+            cpu = nullptr;
+        } else if (line.rfind("POV-Ray finished", 0) == 0) {
+            report.finished = true;
+        } else {
+            parse_counters(line, report.counters);
+        }
+    }
+    return report;
+}
+
+std::optional<double> parse_progress(std::string_view text) {
+    const auto at = text.rfind("Rendered ");
+    if (at == std::string_view::npos) return {};
+    static const std::regex shape(R"(^Rendered (\d+) of (\d+) pixels)");
+    const std::string piece(text.substr(at, 80));
+    std::smatch match;
+    if (!std::regex_search(piece, match, shape)) return {};
+    const double all = to_double(match[2]);
+    return all > 0 ? std::optional(to_double(match[1]) / all) : std::nullopt;
+}
+
+std::vector<std::string> parse_warnings(std::string_view text) {
+    static const std::regex shape(R"(^(?:File '.*' line \d+: )?(?:[A-Z][a-z]+ )*Warning: )");
+    std::vector<std::string> warnings;
+    for (const std::string& line : unwrap_lines(text)) {
+        if (!std::regex_search(line, shape)) continue;
+        std::string warning = trim(line);
+        if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+            warnings.push_back(std::move(warning));
+    }
+    return warnings;
+}
+
+std::string parse_error(std::string_view text) {
+    const std::vector<std::string> lines = unwrap_lines(text);
+    static const std::regex precise(R"(Error: )");
+    static const std::regex general(R"(^(Fatal error|Cannot|Failed|No input file|Problem with))");
+    // An option that POV-Ray does not know is named nowhere but in the command it prints back.
+    for (std::size_t i = 0; i + 1 < lines.size(); ++i)
+        if (lines[i].rfind("Problem with option setting", 0) == 0)
+            return trim(lines[i]) + ": " + trim(i + 2 < lines.size() ? lines[i + 2] : lines[i + 1]);
+    for (const std::string& line : lines)
+        if (std::regex_search(line, precise)) return trim(line);
+    for (const std::string& line : lines)
+        if (std::regex_search(line, general)) return trim(line);
+    for (auto line = lines.rbegin(); line != lines.rend(); ++line)
+        if (!trim(*line).empty()) return trim(*line);
+    return "it printed nothing";
+}
+
+bool is_option_error(std::string_view text) {
+    return text.find("Problem with option setting") != std::string_view::npos;
+}
+
+std::optional<std::string> parse_version(std::string_view text) {
+    static const std::regex shape(
+        R"((?:^|\n)(?:POV-Ray|Persistence of Vision\(tm\) Ray Tracer Version) (\d[^\s]*))");
+    const std::string whole(text);
+    std::smatch match;
+    if (!std::regex_search(whole, match, shape)) return {};
+    return match[1];
+}
+
+std::map<std::string, std::string> parse_ini(std::string_view text) {
+    std::map<std::string, std::string> values;
+    for (const std::string& line : split_lines(text)) {
+        const auto equals = line.find('=');
+        if (equals == std::string::npos || line[0] == ';') continue;
+        std::string key = trim(std::string_view(line).substr(0, equals));
+        std::transform(key.begin(), key.end(), key.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        std::string value = trim(std::string_view(line).substr(equals + 1));
+        if (value.size() >= 2 && value.front() == '"' && value.back() == '"')
+            value = value.substr(1, value.size() - 2);
+        values[key] = value;
+    }
+    return values;
+}
+
+}  // namespace mpipov

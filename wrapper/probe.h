@@ -1,0 +1,44 @@
+// Asks POV-Ray about a scene: what the result is, and what it costs. Three short launches side by
+// side:
+//  1. the user's own command with a header file that stops the parser at once: POV-Ray has then
+//     printed size, region, output file and type as it resolved them, and touched nothing;
+//  2. the whole picture, small: which effects are on, and their times; its file is the sample that
+//     the result's metadata is taken from;
+//  3. the same in another block order (+RP): whether the pixels depend on it.
+#pragma once
+
+#include "scene_plan.h"
+#include "stitch.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mpipov {
+
+struct ProbeRequest {
+    std::string povray = "povray";
+    std::vector<std::string> user_arguments;  // quoted as POV-Ray wants them
+    std::filesystem::path scratch;            // an empty folder
+    std::optional<double> timeout_seconds;
+};
+
+struct Probe {
+    ProbeResult result;
+    FileStyle style;
+    std::vector<std::string> warnings;
+    double cpu_seconds = 0;
+    int launches = 0;
+};
+
+// Throws Failure: usage where POV-Ray refuses an option or nothing can be made of the result (no
+// output file, standard output, an animation, an empty region, an unknown type), scene where it
+// refuses the scene; interrupted.
+Probe run_probe(const ProbeRequest& request);
+
+// Of the `povray` on the PATH or the one named. Throws Failure(Exit::scene) where there is none or
+// it is no POV-Ray 3.7.
+std::string povray_version(const std::string& povray);
+
+}  // namespace mpipov

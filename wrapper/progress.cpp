@@ -1,0 +1,73 @@
+#include "progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace mpipov {
+namespace {
+
+constexpr double live_interval = 0.2;    // seconds between two looks of a live line
+constexpr double plain_interval = 10.0;  // between two plain lines
+constexpr double plain_step = 0.1;       // or this much progress, whichever comes first
+constexpr double shortest_estimate = 1.0;
+
+std::string duration(double seconds) {
+    const auto all = static_cast<long long>(std::llround(seconds));
+    if (all < 60) return fmt::format("{} s", all);
+    if (all < 3600) return fmt::format("{} min {:02} s", all / 60, all % 60);
+    return fmt::format("{} h {:02} min", all / 3600, all / 60 % 60);
+}
+
+}  // namespace
+
+std::string progress_line(double fraction, int sections_done, int sections, double seconds) {
+    std::string line = fmt::format("{:.0f} %, {} of {} sections", std::floor(fraction * 100),
+                                   sections_done, sections);
+    if (fraction > 0 && fraction < 1 && seconds > shortest_estimate)
+        line += fmt::format(", {} left", duration(seconds * (1 - fraction) / fraction));
+    return line;
+}
+
+ProgressView::ProgressView(ProgressStyle style)
+    : style_(style), live_(style == ProgressStyle::automatic && isatty(STDERR_FILENO) == 1) {}
+
+ProgressView::~ProgressView() {
+    clear();
+}
+
+void ProgressView::clear() {
+    if (!shown_) return;
+    std::fputs("\r\x1b[K", stderr);
+    std::fflush(stderr);
+    shown_ = false;
+}
+
+void ProgressView::update(double fraction, int sections_done, int sections, double seconds) {
+    if (style_ == ProgressStyle::none) return;
+    const bool due =
+        live_ ? seconds - last_update_ >= live_interval
+              : fraction != last_fraction_ && (seconds - last_update_ >= plain_interval ||
+                                               fraction - last_fraction_ >= plain_step);
+    if (!due) return;
+    last_update_ = seconds;
+    last_fraction_ = fraction;
+    const std::string line = progress_line(fraction, sections_done, sections, seconds);
+    if (live_) {
+        fmt::print(stderr, "\r{}\x1b[K", line);
+        shown_ = true;
+    } else {
+        fmt::print(stderr, "mpipov: {}\n", line);
+    }
+    std::fflush(stderr);
+}
+
+void ProgressView::say(const std::string& line) {
+    if (style_ == ProgressStyle::none) return;
+    clear();
+    fmt::print(stderr, "{}\n", line);
+}
+
+}  // namespace mpipov

@@ -1,0 +1,34 @@
+// What a user sees while a run goes on, on standard error.
+#pragma once
+
+#include "options.h"
+
+#include <string>
+
+namespace mpipov {
+
+class ProgressView {
+  public:
+    // `automatic` is a live line where standard error is a terminal.
+    explicit ProgressView(ProgressStyle style);
+    ~ProgressView();
+    ProgressView(const ProgressView&) = delete;
+    ProgressView& operator=(const ProgressView&) = delete;
+
+    // fraction: 0 to 1 of the pixels; seconds since the run began.
+    void update(double fraction, int sections_done, int sections, double seconds);
+    // A line of its own, above the live one; not on `none`.
+    void say(const std::string& line);
+
+  private:
+    void clear();
+
+    ProgressStyle style_;
+    bool live_ = false, shown_ = false;
+    double last_update_ = -1e9, last_fraction_ = -1;
+};
+
+// "43 %, 7 of 16 sections, 12 s left"
+std::string progress_line(double fraction, int sections_done, int sections, double seconds);
+
+}  // namespace mpipov

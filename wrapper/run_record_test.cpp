@@ -1,0 +1,63 @@
+#include "run_record.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace mpipov {
+namespace {
+
+RunRecord sample_record() {
+    RunRecord r;
+    r.complete = true;
+    r.versions = {{"mpipov", "0.1.0"}, {"povray", "3.7.0.10"}};
+    r.command = {"mpipov", "scene.pov", "+W64"};
+    r.started = "2026-01-01T00:00:00Z";
+    r.output = "out dir/scene.png";
+    r.pixel_sha1 = "da39a3ee5e6b4b0d3255bfef95601890afd80709";
+    r.plan.image = {64, 48, 3, "png", "uint8"};
+    r.plan.region = {0, 0, 64, 48};
+    r.plan.effects["radiosity"] = {true, "Radiosity Time", 1.5};
+    r.plan.effects["photons"] = {false, "No photons", {}};
+    r.plan.shape = Shape::tiles;
+    r.plan.seams = Seams::halo;
+    r.plan.halo = 2;
+    r.plan.sections = 2;
+    r.plan.schedule = "dynamic";
+    r.plan.predicted = {1.25, 2.5};
+    r.ranks = {{0, "n1", 2, 2, 3.5}};
+    r.sections = {{{0, {0, 0, 32, 48}, {0, 0, 34, 48}}, 0, "n1", 0.5, 1.5, 1.0, 0.9, 2, false}};
+    r.seams = {{{0, 1, true, 32, 0, 48}, true, 3, 7.0, 4}};
+    r.totals = {2.0, 3.0, 0.01, 5, 1};
+    r.warnings = {"Parse Warning: x"};
+    return r;
+}
+
+TEST(RunRecord, SurvivesTheRoundTrip) {
+    const nlohmann::json json = to_json(sample_record());
+    EXPECT_EQ(to_json(run_from_json(json)), json);
+}
+
+TEST(RunRecord, NamesWhatIsMissing) {
+    nlohmann::json json = to_json(sample_record());
+    json["plan"].erase("grid");
+    try {
+        run_from_json(json);
+        FAIL() << "accepted a record without a grid";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("grid"), std::string::npos) << error.what();
+    }
+}
+
+TEST(RunRecord, RefusesAnotherFormatAndTextThatIsNoJson) {
+    EXPECT_THROW(run_from_json({{"format", "else"}, {"version", 1}}), std::runtime_error);
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / "mpipov-record-test.json";
+    std::ofstream(file) << "{";
+    EXPECT_THROW(read_run_record(file), std::runtime_error);
+    std::filesystem::remove(file);
+    EXPECT_THROW(read_run_record(file), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace mpipov

@@ -1,0 +1,229 @@
+#include "scene_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace mpipov {
+namespace {
+
+constexpr int povray_block = 32;
+// CPU seconds of a launch of an empty scene, and of writing one pixel of the full frame around a
+// section (both measured, docs/architecture.md).
+constexpr double bare_launch_cpu = 0.06;
+constexpr double frame_pixel_cpu = 70e-9;
+// A render that takes longer is cut at least so that a section is about this long: what an
+// interruption can lose, and how often progress moves.
+constexpr double longest_section_seconds = 60;
+// The grid of a scene whose pixels depend on the grid comes from the image alone.
+constexpr double pinned_section_pixels = 40000;
+constexpr int fewest_pinned = 4, most_pinned = 64;
+
+long long counter(const LaunchReport& report, const std::string& name) {
+    const auto found = report.counters.find(name);
+    return found == report.counters.end() ? 0 : found->second;
+}
+
+Effect counted(const LaunchReport& report, const std::string& name) {
+    const long long n = counter(report, name);
+    return {n > 0, fmt::format("{}: {}", name, n), {}};
+}
+
+std::map<std::string, Effect> find_effects(const ProbeResult& probe, double pixel_ratio) {
+    const LaunchReport& report = probe.report;
+    std::map<std::string, Effect> effects;
+    const Antialiasing& aa = report.antialiasing;
+    effects["antialiasing"] = {aa.on,
+                               aa.on ? fmt::format("Method {}, Threshold {:.3f}, Depth {}",
+                                                   aa.method, aa.threshold, aa.depth)
+                                     : "Antialiasing Off",
+                               {}};
+    effects["radiosity"] = {report.radiosity,
+                            report.radiosity ? "Radiosity Time is given" : "No radiosity",
+                            report.radiosity ? std::optional(report.radiosity_cpu) : std::nullopt};
+    effects["photons"] = {report.photons, report.photons ? "Photon Time is given" : "No photons",
+                          report.photons ? std::optional(report.photon_cpu) : std::nullopt};
+    effects["media"] = counted(report, "Media Samples");
+    effects["isosurface"] = counted(report, "Isosurface roots");
+    const long long refracted = counter(report, "Refracted Rays");
+    const long long transmitted = counter(report, "Transmitted Rays");
+    effects["transparency"] = {
+        refracted + transmitted > 0,
+        fmt::format("Refracted Rays: {}, Transmitted Rays: {}", refracted, transmitted),
+        {}};
+    effects["reflection"] = counted(report, "Reflected Rays");
+    effects["order_dependent"] = {
+        probe.order_dependent || report.radiosity,
+        report.radiosity ? "radiosity samples are taken in rendering order"
+        : probe.order_dependent
+            ? "two small renders that differ only in their block order came out differently"
+            : "two small renders in different block orders are identical",
+        {}};
+    effects["render"] = {true, "trace time of the small render, by area",
+                         report.trace_cpu * pixel_ratio};
+    return effects;
+}
+
+int clamp_to(long long value, long long low, long long high) {
+    return static_cast<int>(std::clamp(value, low, std::max(low, high)));
+}
+
+struct Choice {
+    int sections = 1, threads = 1;
+    double wall = 0;
+};
+
+// The cheapest number of sections for launches of `threads` threads.
+Choice cheapest(const CostModel& cost, int lanes, int threads, long long most) {
+    Choice best{1, threads, cost.wall_seconds(1, lanes, threads)};
+    const auto limit = std::min<long long>(most, 64LL * lanes);
+    const int fewest =
+        clamp_to(std::llround(cost.render / threads / longest_section_seconds), 1, limit);
+    best = {fewest, threads, cost.wall_seconds(fewest, lanes, threads)};
+    for (int n = fewest + 1; n <= limit; ++n) {
+        const double wall = cost.wall_seconds(n, lanes, threads);
+        if (wall < best.wall) best = {n, threads, wall};
+    }
+    return best;
+}
+
+Seams choose_seams(const PlanRequest& request, const Antialiasing& aa) {
+    if (request.seams) return *request.seams;
+    return aa.on && aa.method == 1 ? Seams::aligned : Seams::plain;
+}
+
+long long most_sections(GridRequest grid, Shape shape) {
+    grid.shape = shape;
+    return max_sections(grid);
+}
+
+// One launch under way for each lane, and enough more that a core has work while launches that
+// start or end are idle.
+int choose_in_flight(const CostModel& cost, int sections, int lanes_of_rank, int threads,
+                     int all_lanes) {
+    if (sections <= all_lanes) return lanes_of_rank;
+    const double busy = std::max(0.02, cost.render / sections / threads + cost.per_launch);
+    const int extra = clamp_to(std::llround(std::ceil(cost.startup_wall / busy)), 1, 3);
+    return lanes_of_rank * (1 + extra);
+}
+
+}  // namespace
+
+double CostModel::wall_seconds(int sections, int lanes, int threads) const {
+    const double share = render / sections / threads + per_launch;
+    const double work = share * std::ceil(static_cast<double>(sections) / lanes);
+    // Shares are never equal: half of one is lost at the end where several lanes must meet. A
+    // launch's own threads share by small blocks and lose next to nothing.
+    const double imbalance = lanes > 1 ? render / sections / threads / 2 : 0;
+    return startup_wall + work + imbalance;
+}
+
+CostModel make_cost_model(const ProbeResult& probe) {
+    CostModel cost;
+    const LaunchReport& report = probe.report;
+    const double ratio = static_cast<double>(probe.image.region.area()) /
+                         static_cast<double>(std::max(1LL, probe.probe_pixels));
+    const double frame = static_cast<double>(probe.image.width) * probe.image.height;
+    cost.render = report.trace_cpu * ratio;
+    cost.per_launch =
+        bare_launch_cpu + report.parse_cpu + report.photon_cpu + frame_pixel_cpu * frame;
+    // The pretrace looks at the section only, but it must light that section's surroundings too:
+    // nearly all of it is paid again.
+    if (report.radiosity) cost.per_launch += report.radiosity_cpu;
+    return cost;
+}
+
+Plan make_plan(const PlanRequest& request, const ProbeResult& probe) {
+    Plan plan;
+    const CostModel cost = make_cost_model(probe);
+    const Antialiasing& aa = probe.report.antialiasing;
+    const double ratio = static_cast<double>(probe.image.region.area()) /
+                         static_cast<double>(std::max(1LL, probe.probe_pixels));
+    PlanRecord& record = plan.record;
+    record.effects = find_effects(probe, ratio);
+    const bool pinned = record.effects.at("order_dependent").on;
+    record.image = probe.stored;
+    record.image.width = probe.image.width;
+    record.image.height = probe.image.height;
+    record.region = probe.image.region;
+
+    GridRequest grid;
+    grid.region = probe.image.region;
+    grid.seams = choose_seams(request, aa);
+    grid.block = probe.user_block > 0 ? probe.user_block : povray_block;
+    grid.halo = grid.seams == Seams::halo ? request.halo : 0;
+
+    const int ranks = static_cast<int>(
+        std::count_if(request.slots.begin(), request.slots.end(), [](int n) { return n > 0; }));
+    if (ranks == 0)
+        throw std::invalid_argument(
+            "no rank is left to render: start more than one with --dedicated-coordinator");
+    const int cores = std::accumulate(request.slots.begin(), request.slots.end(), 0);
+    const int threads_per_host = *std::max_element(request.slots.begin(), request.slots.end());
+
+    // How many sections, and launches of how many threads.
+    const long long most =
+        request.shape ? most_sections(grid, *request.shape) : most_sections(grid, Shape::tiles);
+    Choice choice;
+    if (request.sections) {
+        choice.sections = *request.sections;
+        choice.threads = request.threads.value_or(1);
+        const bool paper_bounds =
+            request.dedicated_coordinator && request.schedule == Policy::dynamic;
+        if (paper_bounds && choice.sections < ranks + 1)
+            throw std::invalid_argument(fmt::format(
+                "--sections {}: {} rendering ranks with --dedicated-coordinator need at least {}",
+                choice.sections, ranks, ranks + 1));
+    } else if (pinned) {
+        choice.sections = clamp_to(
+            std::llround(static_cast<double>(grid.region.area()) / pinned_section_pixels),
+            std::min<long long>(fewest_pinned, most), std::min<long long>(most_pinned, most));
+        choice.threads = request.threads.value_or(1);
+    } else if (request.schedule == Policy::static_) {
+        choice.threads = request.threads.value_or(1);
+        choice.sections = clamp_to(cores / choice.threads, 1, most);
+    } else {
+        choice = cheapest(
+            cost,
+            cores / request.threads.value_or(1) > 0 ? cores / request.threads.value_or(1) : ranks,
+            request.threads.value_or(1), most);
+        if (!request.threads && threads_per_host > 1) {
+            const Choice threaded = cheapest(cost, ranks, threads_per_host, most);
+            if (threaded.wall < choice.wall) choice = threaded;
+        }
+        if (request.dedicated_coordinator)
+            choice.sections = clamp_to(choice.sections, ranks + 1, most);
+    }
+    if (pinned && choice.threads > 1)
+        plan.notes.push_back(
+            "the scene depends on the order of rendering: with more than one thread a launch, "
+            "no two runs are alike");
+
+    grid.sections = choice.sections;
+    grid.shape = request.shape.value_or(
+        choice.sections <= most_sections(grid, Shape::columns) ? Shape::columns : Shape::tiles);
+    plan.partition = make_partition(grid);
+
+    record.shape = grid.shape;
+    record.seams = grid.seams;
+    record.halo = grid.halo;
+    record.block = grid.block;
+    record.sections = choice.sections;
+    record.schedule = to_string(request.schedule);
+    record.threads = choice.threads;
+    const int lanes_of_rank = std::max(1, threads_per_host / choice.threads);
+    const int all_lanes = std::max(ranks, cores / choice.threads);
+    record.in_flight = request.in_flight.value_or(
+        choose_in_flight(cost, choice.sections, lanes_of_rank, choice.threads, all_lanes));
+    record.predicted = {cost.wall_seconds(choice.sections, all_lanes, choice.threads),
+                        cost.cpu_seconds(choice.sections)};
+    if (choice.sections < ranks)
+        plan.notes.push_back(fmt::format("{} of {} ranks have nothing to render: {} sections",
+                                         ranks - choice.sections, ranks, choice.sections));
+    return plan;
+}
+
+}  // namespace mpipov

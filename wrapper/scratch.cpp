@@ -1,0 +1,30 @@
+#include "scratch.h"
+
+#include "failure.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <system_error>
+
+namespace mpipov {
+
+ScratchFolder::ScratchFolder(const std::string& purpose) {
+    std::error_code error;
+    std::filesystem::path base = std::filesystem::temp_directory_path(error);
+    if (error) base = "/tmp";
+    std::string name = (base / fmt::format("mpipov-{}-XXXXXX", purpose)).string();
+    if (mkdtemp(name.data()) == nullptr)
+        throw Failure(Exit::file, fmt::format("cannot make a temporary folder in '{}': {}",
+                                              base.string(), std::strerror(errno)));
+    path_ = name;
+}
+
+ScratchFolder::~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace mpipov

@@ -1,0 +1,178 @@
+#include "worker.h"
+
+#include "povray_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace mpipov {
+namespace {
+
+constexpr int coordinator = 0;
+
+std::string describe_end(const ChildProcess& child) {
+    const ChildResult& result = child.result();
+    if (result.timed_out)
+        return fmt::format("POV-Ray did not end within {:.0f} s (--timeout)", result.wall_seconds);
+    if (result.signal) return fmt::format("POV-Ray was ended by signal {}", *result.signal);
+    return fmt::format("POV-Ray: {}", parse_error(child.output()));
+}
+
+}  // namespace
+
+std::filesystem::path find_image(const std::filesystem::path& folder) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() != ".pov-state") return entry.path();
+    throw std::runtime_error("POV-Ray wrote no image");
+}
+
+Worker::Worker(Transport& transport, std::filesystem::path scratch)
+    : transport_(transport), scratch_(std::move(scratch)) {}
+
+void Worker::handle(const Message& message) {
+    switch (message.kind) {
+        case MessageKind::job:
+            job_ = {message.head.at("povray"), message.head.at("user_arguments"),
+                    message.head.at("format_arguments"), message.head.at("threads"),
+                    message.head.at("block")};
+            image_ = {message.head.at("width"), message.head.at("height")};
+            if (!message.head.at("timeout_seconds").is_null())
+                timeout_seconds_ = message.head.at("timeout_seconds").get<double>();
+            break;
+        case MessageKind::assign:
+            start(message);
+            break;
+        case MessageKind::stop:
+            stop();
+            break;
+        default:
+            throw std::runtime_error("a worker got a message that is not for workers");
+    }
+}
+
+void Worker::start(const Message& message) {
+    Section section{message.head.at("section"), rect_from_json(message.head.at("keep")),
+                    rect_from_json(message.head.at("render"))};
+    const int attempt = message.head.at("attempt");
+    const std::filesystem::path folder = scratch_ / fmt::format("{}-{}", section.id, attempt);
+    try {
+        std::filesystem::create_directory(folder);
+        ChildRequest request;
+        request.argv = section_command(job_, section.render, image_, folder / "section");
+        request.timeout_seconds = timeout_seconds_;
+        launches_.push_back(
+            {section, attempt, folder, ChildProcess::start(request), std::nullopt, 0});
+    } catch (const std::exception& error) {
+        transport_.send({MessageKind::failed,
+                         coordinator,
+                         {{"section", section.id},
+                          {"attempt", attempt},
+                          {"why", error.what()},
+                          {"cpu_seconds", 0.0}},
+                         {}});
+    }
+}
+
+nlohmann::json Worker::head_of(const Launch& launch) const {
+    return {{"section", launch.section.id}, {"attempt", launch.attempt}};
+}
+
+bool Worker::step() {
+    bool busy = false;
+    for (auto it = launches_.begin(); it != launches_.end();) {
+        const State state = step(*it);
+        busy = busy || state != State::idle;
+        if (state == State::over) {
+            std::error_code ignored;
+            std::filesystem::remove_all(it->folder, ignored);
+            it = launches_.erase(it);
+        } else {
+            ++it;
+        }
+    }
+    return busy;
+}
+
+Worker::State Worker::step(Launch& launch) {
+    try {
+        if (launch.reader) return send_bands(launch);
+        if (launch.child.poll()) return begin_reading(launch);
+        send_progress(launch);
+        return State::idle;
+    } catch (const std::exception& error) {
+        send_failure(launch, error.what());
+        return State::over;
+    }
+}
+
+Worker::State Worker::begin_reading(Launch& launch) {
+    const ChildResult& result = launch.child.result();
+    if (result.exit_code != 0) {
+        send_failure(launch, describe_end(launch.child));
+        return State::over;
+    }
+    launch.reader.emplace(find_image(launch.folder), image_.width, image_.height,
+                          launch.section.render, max_band_bytes);
+    return State::busy;
+}
+
+Worker::State Worker::send_bands(Launch& launch) {
+    // Never more than two bands under way: the coordinator sets the pace.
+    if (transport_.unsent_bytes() >= 2 * max_band_bytes) return State::idle;
+    if (std::optional<Band> band = launch.reader->next()) {
+        nlohmann::json head = head_of(launch);
+        head["rect"] = rect_to_json(band->rect);
+        transport_.send({MessageKind::band, coordinator, std::move(head), std::move(band->pixels)});
+        return State::busy;
+    }
+    const ChildResult& result = launch.child.result();
+    nlohmann::json head = head_of(launch);
+    head["wall_seconds"] = result.wall_seconds;
+    head["cpu_seconds"] = result.cpu_seconds;
+    head["warnings"] = parse_warnings(launch.child.output());
+    transport_.send({MessageKind::done, coordinator, std::move(head), {}});
+    return State::over;
+}
+
+void Worker::send_progress(Launch& launch) {
+    // Only in steps worth a message.
+    const double fraction = parse_progress(launch.child.output()).value_or(0);
+    if (fraction < launch.last_fraction + 0.02) return;
+    launch.last_fraction = fraction;
+    nlohmann::json head = head_of(launch);
+    head["fraction"] = fraction;
+    transport_.send({MessageKind::progress, coordinator, std::move(head), {}});
+}
+
+void Worker::send_failure(const Launch& launch, const std::string& why) {
+    nlohmann::json head = head_of(launch);
+    head["why"] = why;
+    head["cpu_seconds"] = launch.child.ended() ? launch.child.result().cpu_seconds : 0.0;
+    transport_.send({MessageKind::failed, coordinator, std::move(head), {}});
+}
+
+void Worker::add_poll_fds(std::vector<pollfd>& fds) const {
+    for (const Launch& launch : launches_) {
+        if (launch.reader) continue;
+        fds.push_back({launch.child.output_fd(), POLLIN, 0});
+        fds.push_back({launch.child.exit_fd(), POLLIN, 0});
+    }
+}
+
+int Worker::wait_milliseconds(int at_most) const {
+    int wait = at_most;
+    for (const Launch& launch : launches_)
+        wait = launch.reader ? std::min(wait, 1) : std::min(wait, launch.child.wait_milliseconds());
+    return std::max(wait, 0);
+}
+
+void Worker::stop() {
+    stopped_ = true;
+    // First all of them, so that they end side by side; then ~ChildProcess waits for each.
+    for (Launch& launch : launches_) launch.child.kill_now();
+    launches_.clear();  // their folders go with the rank's scratch folder
+}
+
+}  // namespace mpipov

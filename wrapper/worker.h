@@ -1,0 +1,72 @@
+// The rendering half of the protocol: keeps launches of POV-Ray under way, reads what they wrote
+// and sends the pixels to the coordinator. Single-threaded; step() never blocks for long.
+#pragma once
+
+#include "child_process.h"
+#include "image_file.h"
+#include "povray_command.h"
+#include "section.h"
+#include "transport.h"
+
+#include <poll.h>
+
+#include <filesystem>
+#include <list>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mpipov {
+
+class Worker {
+  public:
+    // Section files lie in `scratch` while they are needed.
+    Worker(Transport& transport, std::filesystem::path scratch);
+
+    void handle(const Message& message);
+
+    // Looks after the launches; true where something happened.
+    bool step();
+
+    bool stopped() const { return stopped_; }
+
+    // What ::poll() may sleep on, and for how long at most (milliseconds) if there are launches.
+    void add_poll_fds(std::vector<pollfd>& fds) const;
+    int wait_milliseconds(int at_most) const;
+
+    // Ends every launch at once.
+    void stop();
+
+  private:
+    struct Launch {
+        Section section;
+        int attempt = 0;
+        std::filesystem::path folder;
+        ChildProcess child;
+        std::optional<SectionReader> reader;  // once POV-Ray has ended
+        double last_fraction = 0;
+    };
+    enum class State { busy, idle, over };
+
+    void start(const Message& message);
+    State step(Launch& launch);
+    State begin_reading(Launch& launch);
+    State send_bands(Launch& launch);
+    void send_progress(Launch& launch);
+    void send_failure(const Launch& launch, const std::string& why);
+    nlohmann::json head_of(const Launch& launch) const;
+
+    Transport& transport_;
+    std::filesystem::path scratch_;
+    JobCommand job_;
+    ImageSize image_;
+    std::optional<double> timeout_seconds_;
+    std::list<Launch> launches_;
+    bool stopped_ = false;
+};
+
+// The one image that POV-Ray left in `folder` (it names it, we do not know the extension); throws
+// std::runtime_error where there is none.
+std::filesystem::path find_image(const std::filesystem::path& folder);
+
+}  // namespace mpipov
