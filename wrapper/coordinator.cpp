@@ -50,6 +50,7 @@ Coordinator::Coordinator(CoordinatorSetup setup, Transport& transport, Canvas& c
     for (const Section& section : setup_.partition.sections) {
         Progress progress;
         progress.record.section = section;
+        pixels_ += static_cast<double>(section.keep.area());
         sections_.push_back(std::move(progress));
     }
     for (std::size_t i = 0; i < seams_.size(); ++i) seams_[i].seam = overlap_.seams()[i];
@@ -70,9 +71,8 @@ void Coordinator::resume(int section, const nlohmann::json& what,
     record.cpu_seconds = what.at("cpu_seconds");
     record.attempts = what.at("attempts");
     record.resumed = true;
-    progress.done = true;
+    set_fraction(progress, 1);
     ++sections_done_;
-    pixels_done_ += static_cast<double>(record.section.keep.area());
     schedule_.finished(section);
     for (const int seam : overlap_.finish(section)) check_seam(seam);
 }
@@ -108,7 +108,10 @@ void Coordinator::assign_to_all() {
 void Coordinator::assign_to(int worker) {
     int& under_way = under_way_[static_cast<std::size_t>(worker)];
     if (under_way >= setup_.in_flight) return;
-    const std::optional<int> next = schedule_.next(worker);
+    std::optional<int> next = schedule_.next(worker);
+    // The schedule hands out what an earlier run finished, too.
+    while (next && sections_[static_cast<std::size_t>(*next)].record.resumed)
+        next = schedule_.next(worker);
     if (!next) return;
     Progress& progress = sections_[static_cast<std::size_t>(*next)];
     SectionRecord& record = progress.record;
@@ -117,7 +120,11 @@ void Coordinator::assign_to(int worker) {
     record.start = clock_();
     record.attempts = schedule_.attempts(*next);
     progress.under_way = true;
-    progress.fraction = 0;
+    set_fraction(progress, 0);
+    // Whatever came of an earlier attempt does not count.
+    progress.next_row = record.section.render.y0;
+    progress.disagreement.differing = 0;
+    progress.disagreement.max_difference = 0;
     if (under_way++ == 0) busy_since_[static_cast<std::size_t>(worker)] = record.start;
     ++totals_.launches;
     if (record.attempts > 1) ++totals_.retries;
@@ -133,7 +140,7 @@ void Coordinator::assign_to(int worker) {
 void Coordinator::handle(const Message& message) {
     switch (message.kind) {
         case MessageKind::progress:
-            section_of(message).fraction = message.head.at("fraction");
+            take_progress(message);
             break;
         case MessageKind::band:
             take_band(message);
@@ -147,6 +154,7 @@ void Coordinator::handle(const Message& message) {
         default:
             throw std::runtime_error("the coordinator got a message that is not for it");
     }
+    furthest_ = fraction();
 }
 
 Coordinator::Progress& Coordinator::section_of(const Message& message) {
@@ -161,36 +169,38 @@ Coordinator::Progress& Coordinator::section_of(const Message& message) {
     return progress;
 }
 
+void Coordinator::set_fraction(Progress& progress, double fraction) {
+    const double now = std::clamp(fraction, 0.0, 1.0);
+    pixels_done_ +=
+        static_cast<double>(progress.record.section.keep.area()) * (now - progress.fraction);
+    progress.fraction = now;
+}
+
+void Coordinator::take_progress(const Message& message) {
+    set_fraction(section_of(message), message.head.at("fraction"));
+}
+
 void Coordinator::take_band(const Message& message) {
     Progress& progress = section_of(message);
     const Section& section = progress.record.section;
     const Rect rect = rect_from_json(message.head.at("rect"));
-    if (intersect(rect, section.render) != rect)
+    if (rect.empty() || intersect(rect, section.render) != rect)
         throw std::runtime_error(
             fmt::format("rank {} sent pixels outside of section {}", message.peer, section.id));
+    if (rect.x0 != section.render.x0 || rect.x1 != section.render.x1 ||
+        rect.y0 != progress.next_row)
+        throw std::runtime_error(fmt::format("rank {} sent other rows of section {} than its next",
+                                             message.peer, section.id));
+    const std::size_t bytes =
+        static_cast<std::size_t>(rect.area()) * canvas_.layout().bytes_per_pixel();
+    if (message.body.size() != bytes)
+        throw std::runtime_error(fmt::format(
+            "rank {} sent {} bytes of section {} for {}x{} pixels "
+            "that take {}",
+            message.peer, message.body.size(), section.id, rect.width(), rect.height(), bytes));
+    progress.next_row = rect.y1;
     if (progress.seam >= 0) {
-        // What it rendered around the seam is compared with what its two sections have there.
-        const Seam& seam = overlap_.seams()[static_cast<std::size_t>(progress.seam)];
-        const Rect ring =
-            grow(section.keep, progress.disagreement.halo - 1, setup_.partition.request.region);
-        for (const int side : {seam.a, seam.b}) {
-            const Rect around =
-                intersect(ring, setup_.partition.sections[static_cast<std::size_t>(side)].keep);
-            for (const Rect& part : {Rect{around.x0, around.y0, section.keep.x0, around.y1},
-                                     Rect{section.keep.x1, around.y0, around.x1, around.y1},
-                                     Rect{around.x0, around.y0, around.x1, section.keep.y0},
-                                     Rect{around.x0, section.keep.y1, around.x1, around.y1}}) {
-                const Difference difference =
-                    differing_pixels(canvas_, rect, message.body, intersect(part, around));
-                progress.disagreement.differing += difference.pixels;
-                progress.disagreement.max_difference =
-                    std::max(progress.disagreement.max_difference, difference.largest);
-            }
-        }
-        progress.repaired.resize(static_cast<std::size_t>(section.keep.area()) *
-                                 canvas_.layout().bytes_per_pixel());
-        copy_pixels(rect, message.body, section.keep, progress.repaired,
-                    canvas_.layout().bytes_per_pixel());
+        take_repair_band(progress, rect, message.body);
         return;
     }
     canvas_.place(rect, message.body, section.keep);
@@ -198,9 +208,37 @@ void Coordinator::take_band(const Message& message) {
     if (journal_ != nullptr) journal_->take(section.id, section.render, rect, message.body);
 }
 
+// What it rendered around the seam is compared with what its two sections have there.
+void Coordinator::take_repair_band(Progress& progress, const Rect& rect,
+                                   std::span<const std::byte> pixels) {
+    const Rect& keep = progress.record.section.keep;
+    const Seam& seam = overlap_.seams()[static_cast<std::size_t>(progress.seam)];
+    SeamRecord& found = progress.disagreement;
+    const Rect ring = grow(keep, checked_margin(found.halo), setup_.partition.request.region);
+    for (const int side : {seam.a, seam.b}) {
+        const Rect around =
+            intersect(ring, setup_.partition.sections[static_cast<std::size_t>(side)].keep);
+        for (const Rect& part : {Rect{around.x0, keep.y0, keep.x0, keep.y1},
+                                 Rect{keep.x1, keep.y0, around.x1, keep.y1},
+                                 Rect{around.x0, around.y0, around.x1, keep.y0},
+                                 Rect{around.x0, keep.y1, around.x1, around.y1}}) {
+            const Difference difference =
+                differing_pixels(canvas_, rect, pixels, intersect(part, around));
+            found.differing += difference.pixels;
+            found.max_difference = std::max(found.max_difference, difference.largest);
+        }
+    }
+    const std::size_t pixel = canvas_.layout().bytes_per_pixel();
+    progress.repaired.resize(static_cast<std::size_t>(keep.area()) * pixel);
+    copy_pixels(rect, pixels, keep, progress.repaired, pixel);
+}
+
 void Coordinator::take_done(const Message& message) {
     Progress& progress = section_of(message);
     SectionRecord& record = progress.record;
+    if (progress.next_row != record.section.render.y1)
+        throw std::runtime_error(fmt::format("rank {} ended section {} without all of its rows",
+                                             message.peer, record.section.id));
     record.end = clock_();
     record.wall_seconds = message.head.at("wall_seconds");
     record.cpu_seconds = message.head.at("cpu_seconds");
@@ -209,9 +247,8 @@ void Coordinator::take_done(const Message& message) {
         if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end())
             warnings_.push_back(warning);
     progress.under_way = false;
-    progress.done = true;
+    set_fraction(progress, 1);
     ++sections_done_;
-    pixels_done_ += static_cast<double>(record.section.keep.area());
     const auto worker = static_cast<std::size_t>(message.peer);
     RankRecord& rank = setup_.ranks[worker];
     ++rank.sections;
@@ -222,9 +259,10 @@ void Coordinator::take_done(const Message& message) {
     } else {
         if (journal_ != nullptr) journal_->finish(record.section.id, about(record));
         schedule_.finished(record.section.id);
+        // `progress` dangles as soon as repair() adds a section.
         for (const int seam : overlap_.finish(record.section.id)) check_seam(seam);
     }
-    assign_to(message.peer);
+    assign_to_all();
 }
 
 void Coordinator::take_failed(const Message& message) {
@@ -250,15 +288,16 @@ void Coordinator::check_seam(int seam) {
 }
 
 void Coordinator::repair(int seam, int halo) {
+    if (halo > setup_.widest_halo) return;
     Progress again;
     again.seam = seam;
     again.record.section = repair_section(static_cast<int>(sections_.size()),
                                           overlap_.seams()[static_cast<std::size_t>(seam)], halo,
                                           setup_.partition.request.region);
     again.disagreement.halo = halo;
-    sections_.push_back(again);
+    pixels_ += static_cast<double>(again.record.section.keep.area());
     schedule_.add(again.record.section.id);
-    assign_to_all();
+    sections_.push_back(std::move(again));
 }
 
 void Coordinator::check_repair(Progress& done) {
@@ -267,7 +306,7 @@ void Coordinator::check_repair(Progress& done) {
     const int seam = done.seam;
     SeamRecord& record = seams_[static_cast<std::size_t>(seam)];
     record.halo = found.halo;
-    if (found.differing > 0 && found.halo * 2 <= setup_.widest_halo) repair(seam, found.halo * 2);
+    if (found.differing > 0) repair(seam, found.halo * 2);
 }
 
 void Coordinator::place_repairs() {
@@ -289,13 +328,8 @@ void Coordinator::stop_workers() {
 }
 
 double Coordinator::fraction() const {
-    double done = 0, all = 0;
-    for (const Progress& progress : sections_) {
-        const auto area = static_cast<double>(progress.record.section.keep.area());
-        all += area;
-        done += progress.done ? area : progress.under_way ? area * progress.fraction : 0;
-    }
-    return all > 0 ? done / all : 1;
+    if (finished()) return 1;
+    return std::clamp(pixels_done_ / pixels_, furthest_, 1.0);
 }
 
 void Coordinator::fill(RunRecord& record) const {

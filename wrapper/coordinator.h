@@ -51,6 +51,8 @@ class Coordinator {
     void stop_workers();
 
     // Of the region's pixels, those rendered so far; sections under way count by their progress.
+    // From 0 to 1, and never less than before: a section that failed or a seam that is rendered
+    // again only holds it up.
     double fraction() const;
     int sections_done() const { return sections_done_; }
     int sections_total() const { return static_cast<int>(sections_.size()); }
@@ -62,21 +64,25 @@ class Coordinator {
     struct Progress {
         SectionRecord record;
         int seam = -1;  // >= 0: this section renders that seam again
-        bool under_way = false, done = false;
+        bool under_way = false;
         double fraction = 0;
+        int next_row = 0;                 // where the next band of this attempt begins
         SeamRecord disagreement;          // of a seam rendered again with its surroundings
         std::vector<std::byte> repaired;  // its pixels
     };
 
     void assign_to(int worker);
     void assign_to_all();
+    void take_progress(const Message& message);
     void take_band(const Message& message);
+    void take_repair_band(Progress& progress, const Rect& rect, std::span<const std::byte> pixels);
     void take_done(const Message& message);
     void take_failed(const Message& message);
     void check_seam(int seam);
     void check_repair(Progress& repair);
     void repair(int seam, int halo);
     Progress& section_of(const Message& message);
+    void set_fraction(Progress& progress, double fraction);
 
     CoordinatorSetup setup_;
     Transport& transport_;
@@ -92,7 +98,8 @@ class Coordinator {
     Totals totals_;
     std::vector<std::string> warnings_;
     int sections_done_ = 0;
-    double pixels_done_ = 0;
+    double pixels_ = 0, pixels_done_ = 0;
+    double furthest_ = 0;  // the largest fraction so far
 };
 
 }  // namespace mpipov

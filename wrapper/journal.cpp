@@ -5,6 +5,8 @@
 #include <OpenImageIO/hash.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -14,9 +16,47 @@ namespace {
 
 using nlohmann::json;
 
-[[noreturn]] void cannot_write(const std::filesystem::path& file) {
+constexpr std::string_view journal_name = "journal.json";
+constexpr std::string_view sections_name = "sections.jsonl";
+constexpr std::string_view pixels_extension = ".pixels";
+
+[[noreturn]] void cannot(const char* what, const std::filesystem::path& file) {
     throw Failure(Exit::file,
-                  fmt::format("cannot write '{}': {}", file.string(), std::strerror(errno)));
+                  fmt::format("cannot {} '{}': {}", what, file.string(), std::strerror(errno)));
+}
+
+// Texts that are no UTF-8 (file names may be anything) as they come back from the file.
+std::string to_text(const json& value, int indent = -1) {
+    return value.dump(indent, ' ', false, json::error_handler_t::replace);
+}
+
+bool belongs_to_a_journal(const std::filesystem::path& file) {
+    const std::string name = file.filename().string();
+    if (name == journal_name || name == sections_name) return true;
+    return file.extension() == pixels_extension &&
+           name.find_first_not_of("0123456789") == name.size() - pixels_extension.size();
+}
+
+// Nothing else is ever removed: --work-dir may name any folder.
+void remove_files(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+        if (belongs_to_a_journal(entry.path())) files.push_back(entry.path());
+    for (const std::filesystem::path& file : files) std::filesystem::remove(file, ignored);
+}
+
+// What an interruption cut off stays a line of its own, which does not count.
+void end_last_line(const std::filesystem::path& file) {
+    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+    if (!stream.seekg(-1, std::ios::end) || stream.get() == '\n') return;
+    stream.seekp(0, std::ios::end);
+    if (!stream.put('\n').flush()) cannot("write", file);
+}
+
+bool is_entry(const json& entry) {
+    return entry.is_object() && entry.value("section", json()).is_number_integer() &&
+           entry.value("sha1", json()).is_string() && entry.contains("about");
 }
 
 }  // namespace
@@ -28,54 +68,68 @@ std::string sha1_of_file(const std::filesystem::path& file) {
     std::vector<char> buffer(std::size_t{1} << 20);
     while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0)
         sha.append(buffer.data(), static_cast<std::size_t>(in.gcount()));
-    return sha.digest();
+    std::string digits = sha.digest();  // in upper case, unlike everybody else's
+    std::transform(digits.begin(), digits.end(), digits.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return digits;
 }
 
 std::filesystem::path Journal::pixel_file(int section) const {
-    return folder_ / fmt::format("{}.pixels", section);
+    return folder_ / fmt::format("{}{}", section, pixels_extension);
 }
 
 Journal Journal::create(const std::filesystem::path& folder, const json& identity,
                         const json& plan) {
     std::error_code error;
-    std::filesystem::remove_all(folder, error);
     std::filesystem::create_directories(folder, error);
     if (error)
         throw Failure(Exit::file, fmt::format("cannot make the work folder '{}': {}",
                                               folder.string(), error.message()));
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+        if (!belongs_to_a_journal(entry.path()))
+            throw Failure(Exit::file,
+                          fmt::format("the work folder '{}' holds '{}', which is not mpipov's: "
+                                      "name another one with --work-dir",
+                                      folder.string(), entry.path().filename().string()));
+    remove_files(folder);
     Journal journal(folder);
     journal.plan_ = plan;
-    const std::filesystem::path file = folder / "journal.json";
+    const std::filesystem::path file = folder / journal_name;
     std::ofstream out(file);
-    out << json{{"format", "mpipov-journal"},
-                {"version", 1},
-                {"identity", identity},
-                {"plan", plan}}
-               .dump(2, ' ', false, json::error_handler_t::replace)
+    out << to_text({{"format", "mpipov-journal"},
+                    {"version", 1},
+                    {"identity", identity},
+                    {"plan", plan}},
+                   2)
         << '\n';
-    if (!out.flush()) cannot_write(file);
+    if (!out.flush()) cannot("write", file);
     return journal;
 }
 
 Journal Journal::open(const std::filesystem::path& folder, const json& identity) {
-    const std::filesystem::path file = folder / "journal.json";
+    const std::filesystem::path file = folder / journal_name;
     std::ifstream in(file);
     if (!in)
         throw Failure(Exit::usage, fmt::format("--resume: nothing to go on from in '{}'; run "
                                                "without --resume",
                                                folder.string()));
     const json stored = json::parse(in, nullptr, false);
-    if (stored.is_discarded() || stored.value("format", "") != "mpipov-journal")
+    if (!stored.is_object() || stored.value("format", json()) != "mpipov-journal" ||
+        stored.value("version", json()) != 1 || !stored.contains("identity") ||
+        !stored.contains("plan"))
         throw Failure(Exit::file,
                       fmt::format("'{}' is damaged; run without --resume", file.string()));
-    for (const auto& [key, value] : identity.items())
-        if (!stored.at("identity").contains(key) || stored.at("identity").at(key) != value)
+    const json& earlier = stored.at("identity");
+    const json now = json::parse(to_text(identity));
+    for (const auto& [key, value] : now.items())
+        if (!earlier.contains(key) || earlier.at(key) != value)
             throw Failure(Exit::usage,
                           fmt::format("--resume: the {} changed since the run that '{}' belongs "
                                       "to; run without --resume",
                                       key, folder.string()));
     Journal journal(folder);
     journal.plan_ = stored.at("plan");
+    end_last_line(folder / sections_name);
     return journal;
 }
 
@@ -88,31 +142,32 @@ void Journal::take(int section, const Rect& render, const Rect& rect,
     std::ofstream& out = open_.at(section);
     out.write(reinterpret_cast<const char*>(pixels.data()),
               static_cast<std::streamsize>(pixels.size()));
-    if (!out) cannot_write(pixel_file(section));
+    if (!out) cannot("write", pixel_file(section));
 }
 
 void Journal::finish(int section, const json& about) {
     auto found = open_.find(section);
     if (found != open_.end()) {
         found->second.close();
-        if (!found->second) cannot_write(pixel_file(section));
+        if (!found->second) cannot("write", pixel_file(section));
         open_.erase(found);
     }
-    const std::filesystem::path file = folder_ / "sections.jsonl";
+    const std::string sha1 = sha1_of_file(pixel_file(section));
+    if (sha1.empty()) cannot("read", pixel_file(section));
+    const std::filesystem::path file = folder_ / sections_name;
     std::ofstream out(file, std::ios::app);
-    out << json{{"section", section}, {"sha1", sha1_of_file(pixel_file(section))}, {"about", about}}
-               .dump(-1, ' ', false, json::error_handler_t::replace)
-        << '\n';
-    if (!out.flush()) cannot_write(file);
+    out << to_text({{"section", section}, {"sha1", sha1}, {"about", about}}) << '\n';
+    if (!out.flush()) cannot("write", file);
 }
 
 std::vector<Journal::Finished> Journal::finished() const {
     std::map<int, json> last;  // of a section that was finished twice, the last line counts
-    std::ifstream in(folder_ / "sections.jsonl");
+    std::ifstream in(folder_ / sections_name);
     for (std::string line; std::getline(in, line);) {
         json entry = json::parse(line, nullptr, false);
-        if (entry.is_discarded() || !entry.contains("section")) continue;  // cut off by the end
-        last[entry.at("section").get<int>()] = std::move(entry);
+        if (!is_entry(entry)) continue;  // cut off by the end
+        const int section = entry.at("section").get<int>();
+        last[section] = std::move(entry);
     }
     std::vector<Finished> finished;
     for (const auto& [section, entry] : last)
@@ -123,16 +178,20 @@ std::vector<Journal::Finished> Journal::finished() const {
 
 std::vector<std::byte> Journal::read(int section) const {
     std::ifstream in(pixel_file(section), std::ios::binary);
-    std::vector<std::byte> pixels(std::filesystem::file_size(pixel_file(section)));
-    in.read(reinterpret_cast<char*>(pixels.data()), static_cast<std::streamsize>(pixels.size()));
-    if (!in) cannot_write(pixel_file(section));
+    std::error_code error;
+    const auto size = std::filesystem::file_size(pixel_file(section), error);
+    if (!in || error) cannot("read", pixel_file(section));
+    std::vector<std::byte> pixels(size);
+    if (!in.read(reinterpret_cast<char*>(pixels.data()), static_cast<std::streamsize>(size)))
+        cannot("read", pixel_file(section));
     return pixels;
 }
 
 void Journal::remove() {
     open_.clear();
     std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
+    remove_files(folder_);
+    std::filesystem::remove(folder_, ignored);
 }
 
 }  // namespace mpipov

@@ -21,11 +21,12 @@ namespace mpipov {
 
 class Journal {
   public:
-    // Starts a new journal in `folder`, in place of an old one. Throws Failure(Exit::file).
+    // Starts a new journal in `folder`, in place of an old one. Throws Failure(Exit::file), also
+    // where the folder holds anything that is not a journal's: it would be lost with the journal.
     static Journal create(const std::filesystem::path& folder, const nlohmann::json& identity,
                           const nlohmann::json& plan);
     // Opens the one that an earlier run left. Throws Failure(Exit::usage) where there is none or
-    // where `identity` differs in a value, naming it.
+    // where `identity` differs in a value, naming it; Failure(Exit::file) where it is damaged.
     static Journal open(const std::filesystem::path& folder, const nlohmann::json& identity);
 
     const nlohmann::json& plan() const { return plan_; }
@@ -41,10 +42,10 @@ class Journal {
     };
     // What earlier runs finished and whose pixels are still as they were.
     std::vector<Finished> finished() const;
-    // The pixels of such a section, all rows of `render`.
+    // The pixels of such a section, all rows of `render`. Throws Failure(Exit::file).
     std::vector<std::byte> read(int section) const;
 
-    // Removes the folder: the result is complete.
+    // Removes the journal, and the folder with it: the result is complete.
     void remove();
 
     const std::filesystem::path& folder() const { return folder_; }
@@ -58,7 +59,7 @@ class Journal {
     std::map<int, std::ofstream> open_;
 };
 
-// 40 hexadecimal digits; empty where the file cannot be read.
+// 40 hexadecimal digits, as sha1sum prints them; empty where the file cannot be read.
 std::string sha1_of_file(const std::filesystem::path& file);
 
 }  // namespace mpipov

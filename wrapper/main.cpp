@@ -11,6 +11,7 @@
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <mpi.h>
 #include <unistd.h>
 
@@ -127,6 +128,9 @@ int run(const std::vector<std::string>& arguments, int rank) {
 
 int main(int argc, char** argv) {
     block_interrupts();
+    // Bands of pixels come and go: glibc would raise the threshold after the first one and keep the
+    // later ones in a heap that fragments.
+    mallopt(M_MMAP_THRESHOLD, 256 << 10);
     MPI_Init(&argc, &argv);
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);

@@ -30,7 +30,7 @@ struct Message {
 };
 
 // A band's pixels are at most this long, so that neither side holds much more than its own pixels.
-constexpr std::size_t max_band_bytes = std::size_t{8} << 20;
+constexpr std::size_t max_band_bytes = std::size_t{1} << 20;
 // Nothing longer is accepted; a band, its head and some room.
 constexpr std::size_t max_message_bytes = max_band_bytes + (std::size_t{8} << 20);
 

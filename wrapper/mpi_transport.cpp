@@ -21,6 +21,10 @@ void check(int code, const char* what) {
     throw std::runtime_error(std::string(what) + ": " + text);
 }
 
+[[noreturn]] void refuse_length() {
+    throw std::runtime_error("a message between ranks is too long");
+}
+
 }  // namespace
 
 struct MpiTransport::State {
@@ -63,12 +67,18 @@ int MpiTransport::size() const {
 }
 
 void MpiTransport::send(Message message) {
+    if (message.peer < 0 || message.peer >= state_->size)
+        throw std::runtime_error("a message to a rank that there is not");
     if (message.peer == state_->rank) {
+        if (message.body.size() > max_message_bytes) refuse_length();
         state_->to_self.push_back(std::move(message));
         return;
     }
+    std::vector<std::byte> bytes = pack(message);
+    // The receiver would refuse it, too late for the sender to tell which message it was.
+    if (bytes.size() > max_message_bytes) refuse_length();
     State::Sending& sending = state_->sending.emplace_back();
-    sending.bytes = pack(message);
+    sending.bytes = std::move(bytes);
     check(MPI_Isend(sending.bytes.data(), static_cast<int>(sending.bytes.size()), MPI_BYTE,
                     message.peer, message_tag, state_->comm, &sending.request),
           "MPI_Isend");
@@ -89,8 +99,7 @@ std::optional<Message> MpiTransport::try_receive() {
     if (found == 0) return {};
     int count = 0;
     MPI_Get_count(&status, MPI_BYTE, &count);
-    if (count < 0 || static_cast<std::size_t>(count) > max_message_bytes)
-        throw std::runtime_error("a message between ranks is too long");
+    if (count < 0 || static_cast<std::size_t>(count) > max_message_bytes) refuse_length();
     std::vector<std::byte> bytes(static_cast<std::size_t>(count));
     check(MPI_Mrecv(bytes.data(), count, MPI_BYTE, &handle, &status), "MPI_Mrecv");
     return unpack(bytes, status.MPI_SOURCE);

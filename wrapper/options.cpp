@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <functional>
 
 namespace mpipov {
@@ -111,7 +112,8 @@ void set_timeout(Options& o, const std::string& value) {
     } catch (const std::exception&) {
         bad_value(value, "auto or a number of seconds");
     }
-    if (used != value.size() || !(seconds > 0)) bad_value(value, "auto or a number of seconds");
+    if (used != value.size() || !(seconds > 0) || !std::isfinite(seconds))
+        bad_value(value, "auto or a number of seconds");
     o.timeout_seconds = seconds;
 }
 
@@ -204,9 +206,18 @@ std::vector<std::string> take_ours(const std::vector<std::string>& arguments,
             continue;
         }
         ours.push_back(argument);
-        const Row* row = find_row(argument.substr(2));
-        if (row != nullptr && row->value != nullptr && i + 1 < arguments.size())
-            ours.push_back(arguments[++i]);
+        const auto equals = argument.find('=');
+        const Row* row = find_row(argument.substr(2, equals - 2));
+        if (equals != std::string::npos) {
+            if (row != nullptr && row->value == nullptr)
+                throw Failure(Exit::usage, fmt::format("--{} takes no value", row->name));
+            continue;
+        }
+        if (row == nullptr || row->value == nullptr) continue;
+        if (i + 1 == arguments.size() || arguments[i + 1].rfind("--", 0) == 0)
+            throw Failure(Exit::usage, fmt::format("--{} needs a value: --{} {}", row->name,
+                                                   row->name, row->value));
+        ours.push_back(arguments[++i]);
     }
     return ours;
 }

@@ -18,11 +18,24 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
     return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
-// A name beside `file` that nobody else uses; a reader that looks for images does not see it.
-std::filesystem::path part_name(const std::filesystem::path& file) {
-    return folder_of(file) /
-           fmt::format(".{}.{}.part", file.filename().string(), static_cast<long>(getpid()));
-}
+// A name beside `file` that nobody else uses; a reader that looks for images does not see it. What
+// has not been renamed in the end is removed.
+class Part {
+  public:
+    explicit Part(const std::filesystem::path& file)
+        : part_(folder_of(file) / fmt::format(".{}.{}.part", file.filename().string(),
+                                              static_cast<long>(getpid()))) {}
+    Part(const Part&) = delete;
+    Part& operator=(const Part&) = delete;
+    ~Part() {
+        std::error_code ignored;
+        std::filesystem::remove(part_, ignored);
+    }
+    const std::filesystem::path& file() const { return part_; }
+
+  private:
+    std::filesystem::path part_;
+};
 
 void check_file(const std::filesystem::path& file) {
     const std::filesystem::path folder = folder_of(file);
@@ -57,19 +70,19 @@ void OutputPlace::check() const {
 }
 
 void OutputPlace::write(const std::function<void(const std::filesystem::path&)>& encode) const {
-    const std::filesystem::path part = part_name(image_);
-    std::error_code error;
+    const Part part(image_);
     try {
-        encode(part);
-    } catch (const std::runtime_error& failure) {
-        std::filesystem::remove(part, error);
-        throw Failure(Exit::file, failure.what());
+        encode(part.file());
+    } catch (const Failure&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw Failure(Exit::file, error.what());
     }
-    std::filesystem::rename(part, image_, error);
-    if (!error) return;
-    const std::string why = error.message();
-    std::filesystem::remove(part, error);
-    throw Failure(Exit::file, fmt::format("cannot write '{}': {}", image_.string(), why));
+    std::error_code error;
+    std::filesystem::rename(part.file(), image_, error);
+    if (error)
+        throw Failure(Exit::file,
+                      fmt::format("cannot write '{}': {}", image_.string(), error.message()));
 }
 
 }  // namespace mpipov

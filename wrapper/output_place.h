@@ -22,7 +22,8 @@ class OutputPlace {
     void check() const;
 
     // `encode` writes to a file beside the image, which then takes its place by rename. Throws
-    // Failure(Exit::file); nothing is left behind.
+    // Failure(Exit::file) for any std::runtime_error of encode's; whatever is thrown, nothing is
+    // left behind and an earlier image stays.
     void write(const std::function<void(const std::filesystem::path&)>& encode) const;
 
   private:

@@ -24,6 +24,7 @@ OverlapCheck::OverlapCheck(const Partition& partition, const PixelLayout& layout
     : layout_(layout),
       seams_(find_seams(partition.sections)),
       strips_of_section_(partition.sections.size()),
+      strips_of_seam_(seams_.size()),
       seams_of_section_(partition.sections.size()),
       finished_(partition.sections.size(), false) {
     const GridRequest& grid = partition.request;
@@ -35,14 +36,14 @@ OverlapCheck::OverlapCheck(const Partition& partition, const PixelLayout& layout
             seams_of_section_[static_cast<std::size_t>(renderer)].push_back(i);
             const Section& mine = partition.sections[static_cast<std::size_t>(renderer)];
             const Section& other = partition.sections[static_cast<std::size_t>(owner)];
-            const Rect ring = grow(mine.keep, std::max(0, halo_ - 1), grid.region);
+            const Rect ring = grow(mine.keep, checked_margin(halo_), grid.region);
             const Rect rect = intersect(ring, other.keep);
-            if (halo_ < 2 || rect.empty()) continue;
-            strips_of_section_[static_cast<std::size_t>(renderer)].push_back(
-                static_cast<int>(strips_.size()));
-            strips_.push_back({i, renderer, rect,
-                               std::vector<std::byte>(static_cast<std::size_t>(rect.area()) *
-                                                      layout.bytes_per_pixel())});
+            if (rect.empty()) continue;
+            const auto index = static_cast<int>(strips_.size());
+            strips_of_section_[static_cast<std::size_t>(renderer)].push_back(index);
+            strips_of_seam_[static_cast<std::size_t>(i)].push_back(index);
+            strips_.push_back({rect, std::vector<std::byte>(static_cast<std::size_t>(rect.area()) *
+                                                            layout.bytes_per_pixel())});
         }
     }
 }
@@ -71,8 +72,8 @@ SeamRecord OverlapCheck::compare(int seam, const Canvas& canvas) const {
     SeamRecord record;
     record.seam = seams_[static_cast<std::size_t>(seam)];
     record.halo = halo_;
-    for (const Strip& strip : strips_) {
-        if (strip.seam != seam) continue;
+    for (const int index : strips_of_seam_[static_cast<std::size_t>(seam)]) {
+        const Strip& strip = strips_[static_cast<std::size_t>(index)];
         record.checked = true;
         const Difference difference =
             differing_pixels(canvas, strip.rect, strip.pixels, strip.rect);

@@ -1,6 +1,8 @@
 // The neighbours' self-check of a halo render: two sections that both rendered the same pixels must
-// agree on them. The outermost ring of what a section rendered is left out: there antialiasing
-// lacked a neighbour, so it may differ and proves nothing. A halo of 1 therefore checks nothing.
+// agree on them, in the half of the overlap that is nearer to what each of them keeps. How far an
+// edge of what was rendered spoils the pixels is not known beforehand; in the outer half it may,
+// and proves nothing, but where it reaches the inner half, the pixels that are kept are next. A
+// halo of 1 therefore checks nothing.
 #pragma once
 
 #include "image_file.h"
@@ -12,6 +14,11 @@
 #include <vector>
 
 namespace mpipov {
+
+// How far beyond what a section keeps its pixels are compared with others' of the same place.
+constexpr int checked_margin(int halo) {
+    return halo / 2;
+}
 
 class OverlapCheck {
   public:
@@ -32,8 +39,7 @@ class OverlapCheck {
 
   private:
     struct Strip {
-        int seam = 0, renderer = 0;  // rendered by `renderer`, owned by the section beyond the seam
-        Rect rect;
+        Rect rect;  // rendered by one section, owned by the one beyond the seam
         std::vector<std::byte> pixels;
     };
 
@@ -41,7 +47,8 @@ class OverlapCheck {
     int halo_ = 0;
     std::vector<Seam> seams_;
     std::vector<Strip> strips_;
-    std::vector<std::vector<int>> strips_of_section_;  // indices into strips_
+    // Indices into strips_: those that a section rendered, those of a seam.
+    std::vector<std::vector<int>> strips_of_section_, strips_of_seam_;
     std::vector<std::vector<int>> seams_of_section_;
     std::vector<bool> finished_;
 };

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <utility>
 
 namespace mpipov {
 namespace {
@@ -37,6 +36,10 @@ std::string filtered(const std::string& png, const std::vector<PngChunk>& metada
     return out;
 }
 
+MATCHER_P2(IsChunk, type, after_pixels, "") {
+    return arg.type == type && arg.after_pixels == after_pixels;
+}
+
 class PngChunks : public testing::Test {
   protected:
     std::vector<PngChunk> metadata_of(const std::string& content) {
@@ -54,10 +57,8 @@ const std::string sample = signature + header + chunk("gAMA", "1234") + chunk("t
 
 TEST_F(PngChunks, ReadsAllButThePixels) {
     const auto metadata = metadata_of(sample);
-    std::vector<std::pair<std::string, bool>> found;
-    for (const PngChunk& c : metadata) found.emplace_back(c.type, c.after_pixels);
-    EXPECT_THAT(found, ElementsAre(std::pair("gAMA"s, false), std::pair("tEXt"s, false),
-                                   std::pair("tIME"s, true)));
+    EXPECT_THAT(metadata,
+                ElementsAre(IsChunk("gAMA", false), IsChunk("tEXt", false), IsChunk("tIME", true)));
     EXPECT_EQ(as_text(metadata.at(1).bytes), chunk("tEXt", "a\0b"s));
 }
 

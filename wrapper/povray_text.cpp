@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t wrap_column = 80;
 // POV-Ray looks for a space in the last quarter of the line only.
 constexpr std::size_t shortest_wrapped_line = wrap_column * 3 / 4;
+constexpr std::string_view option_problem = "Problem with option setting";
 
 std::vector<std::string> split_lines(std::string_view text) {
     std::vector<std::string> lines;
@@ -24,8 +25,17 @@ std::vector<std::string> split_lines(std::string_view text) {
     return lines;
 }
 
+// How POV-Ray begins a message, a heading or an entry of a table.
+bool begins_anew(const std::string& line) {
+    for (const std::string_view start : {"File '", "Parse ", "Possible ", "Fatal error", "Render",
+                                         "POV-Ray ", "====", "----", "  "})
+        if (line.rfind(start, 0) == 0) return true;
+    return false;
+}
+
 bool continues(const std::string& line, const std::string& next) {
-    if (line.size() >= wrap_column) return true;
+    // A line that just fills the columns looks like one that was broken there.
+    if (line.size() >= wrap_column) return !begins_anew(next);
     return line.size() >= shortest_wrapped_line && next.size() > 1 && next[0] == ' ' &&
            next[1] != ' ';
 }
@@ -121,7 +131,7 @@ std::vector<std::string> unwrap_lines(std::string_view text) {
 std::optional<ImageOptions> parse_image_options(std::string_view text) {
     static const std::regex resolution(
         R"(^(\d+) by (\d+) \(rows (\d+) to (\d+), columns (\d+) to (\d+)\)\.?$)");
-    static const std::regex frames(R"(Initial Frame: +(\d+) +Final Frame: +(\d+))");
+    static const std::regex frames(R"(^Rendering frame \d+ of (\d+))");
     ImageOptions options;
     bool found = false;
     for (const std::string& line : unwrap_lines(text)) {
@@ -141,8 +151,7 @@ std::optional<ImageOptions> parse_image_options(std::string_view text) {
             options.input_file = *input;
         } else if (std::regex_search(line, match, frames)) {
             options.animation = true;
-            options.first_frame = to_int(match[1]);
-            options.last_frame = to_int(match[2]);
+            options.frames = to_int(match[1]);
         }
     }
     if (!found) return {};
@@ -186,14 +195,17 @@ LaunchReport parse_report(std::string_view text) {
 }
 
 std::optional<double> parse_progress(std::string_view text) {
-    const auto at = text.rfind("Rendered ");
-    if (at == std::string_view::npos) return {};
     static const std::regex shape(R"(^Rendered (\d+) of (\d+) pixels)");
-    const std::string piece(text.substr(at, 80));
-    std::smatch match;
-    if (!std::regex_search(piece, match, shape)) return {};
-    const double all = to_double(match[2]);
-    return all > 0 ? std::optional(to_double(match[1]) / all) : std::nullopt;
+    // The very last one may still be on its way.
+    for (auto at = text.rfind("Rendered "); at != std::string_view::npos;
+         at = at > 0 ? text.rfind("Rendered ", at - 1) : std::string_view::npos) {
+        const std::string piece(text.substr(at, wrap_column));
+        std::smatch match;
+        if (!std::regex_search(piece, match, shape)) continue;
+        const double all = to_double(match[2]);
+        return all > 0 ? std::optional(to_double(match[1]) / all) : std::nullopt;
+    }
+    return {};
 }
 
 std::vector<std::string> parse_warnings(std::string_view text) {
@@ -209,15 +221,21 @@ std::vector<std::string> parse_warnings(std::string_view text) {
 }
 
 std::string parse_error(std::string_view text) {
-    const std::vector<std::string> lines = unwrap_lines(text);
     static const std::regex precise(R"(Error: )");
-    static const std::regex general(R"(^(Fatal error|Cannot|Failed|No input file|Problem with))");
-    // An option that POV-Ray does not know is named nowhere but in the command it prints back.
-    for (std::size_t i = 0; i + 1 < lines.size(); ++i)
-        if (lines[i].rfind("Problem with option setting", 0) == 0)
-            return trim(lines[i]) + ": " + trim(i + 2 < lines.size() ? lines[i + 2] : lines[i + 1]);
-    for (const std::string& line : lines)
-        if (std::regex_search(line, precise)) return trim(line);
+    static const std::regex possible(R"(Possible [A-Za-z ]*Error: )");
+    static const std::regex general(R"(^(Fatal error|Cannot|Failed|No input file))");
+    // These lines are not wrapped: the problem, the whole command, the reason.
+    const std::vector<std::string> printed = split_lines(text);
+    for (std::size_t i = 0; i + 2 < printed.size(); ++i)
+        if (printed[i].rfind(option_problem, 0) == 0)
+            return trim(printed[i]) + ": " + trim(printed[i + 2]);
+    const std::vector<std::string> lines = unwrap_lines(text);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (!std::regex_search(lines[i], precise) || std::regex_search(lines[i], possible))
+            continue;
+        // Right before "Cannot open input file." stands which file, as a possible error.
+        return trim(i > 0 && std::regex_search(lines[i - 1], possible) ? lines[i - 1] : lines[i]);
+    }
     for (const std::string& line : lines)
         if (std::regex_search(line, general)) return trim(line);
     for (auto line = lines.rbegin(); line != lines.rend(); ++line)
@@ -226,7 +244,7 @@ std::string parse_error(std::string_view text) {
 }
 
 bool is_option_error(std::string_view text) {
-    return text.find("Problem with option setting") != std::string_view::npos;
+    return text.find(option_problem) != std::string_view::npos;
 }
 
 std::optional<std::string> parse_version(std::string_view text) {

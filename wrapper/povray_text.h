@@ -30,7 +30,7 @@ struct ImageOptions {
     int jpeg_quality = 0;
     std::string dithering = "Off";
     bool animation = false;
-    int first_frame = 1, last_frame = 1;
+    int frames = 1;  // how many of an animation this run renders (+SF, +EF), not how many it has
 };
 std::optional<ImageOptions> parse_image_options(std::string_view text);
 
@@ -57,7 +57,7 @@ std::optional<double> parse_progress(std::string_view text);
 // POV-Ray's warnings, unwrapped, in order, each once.
 std::vector<std::string> parse_warnings(std::string_view text);
 
-// The line that says best why POV-Ray failed; never empty.
+// The line that says best why POV-Ray failed; never empty. (Which option it refuses it never says.)
 std::string parse_error(std::string_view text);
 
 // True where POV-Ray refused an option (and not the scene).

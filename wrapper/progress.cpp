@@ -64,6 +64,12 @@ void ProgressView::update(double fraction, int sections_done, int sections, doub
     std::fflush(stderr);
 }
 
+void ProgressView::finish(int sections, double seconds) {
+    if (style_ == ProgressStyle::none || live_) return;
+    fmt::print(stderr, "mpipov: {} in {}\n", progress_line(1, sections, sections, seconds),
+               duration(seconds));
+}
+
 void ProgressView::say(const std::string& line) {
     if (style_ == ProgressStyle::none) return;
     clear();

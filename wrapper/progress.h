@@ -17,6 +17,8 @@ class ProgressView {
 
     // fraction: 0 to 1 of the pixels; seconds since the run began.
     void update(double fraction, int sections_done, int sections, double seconds);
+    // All is rendered.
+    void finish(int sections, double seconds);
     // A line of its own, above the live one; not on `none`.
     void say(const std::string& line);
 

@@ -214,6 +214,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
                                   failure.what(), coordinator.sections_done(),
                                   coordinator.sections_total(), journal->folder().string()));
     }
+    progress.finish(coordinator.sections_total(), clock.seconds());
     coordinator.place_repairs();
 
     place.write([&](const std::filesystem::path& file) { write_image(canvas, probe.style, file); });

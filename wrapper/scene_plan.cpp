@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 
@@ -22,6 +23,27 @@ constexpr double longest_section_seconds = 60;
 constexpr double pinned_section_pixels = 40000;
 constexpr int fewest_pinned = 4, most_pinned = 64;
 
+// Longer than any render; what is no time at all counts as none.
+constexpr double longest_seconds = 1e12;
+
+double sane(double seconds) {
+    return seconds > 0 ? std::min(seconds, longest_seconds) : 0;
+}
+
+ProbeResult with_sane_times(ProbeResult probe) {
+    LaunchReport& report = probe.report;
+    for (double* seconds :
+         {&report.parse_cpu, &report.photon_cpu, &report.radiosity_cpu, &report.trace_cpu})
+        *seconds = sane(*seconds);
+    probe.probe_pixels = std::max(1LL, probe.probe_pixels);
+    return probe;
+}
+
+// How many small renders fit into the region.
+double area_ratio(const ProbeResult& probe) {
+    return static_cast<double>(probe.image.region.area()) / static_cast<double>(probe.probe_pixels);
+}
+
 long long counter(const LaunchReport& report, const std::string& name) {
     const auto found = report.counters.find(name);
     return found == report.counters.end() ? 0 : found->second;
@@ -32,7 +54,7 @@ Effect counted(const LaunchReport& report, const std::string& name) {
     return {n > 0, fmt::format("{}: {}", name, n), {}};
 }
 
-std::map<std::string, Effect> find_effects(const ProbeResult& probe, double pixel_ratio) {
+std::map<std::string, Effect> find_effects(const ProbeResult& probe) {
     const LaunchReport& report = probe.report;
     std::map<std::string, Effect> effects;
     const Antialiasing& aa = report.antialiasing;
@@ -63,7 +85,7 @@ std::map<std::string, Effect> find_effects(const ProbeResult& probe, double pixe
             : "two small renders in different block orders are identical",
         {}};
     effects["render"] = {true, "trace time of the small render, by area",
-                         report.trace_cpu * pixel_ratio};
+                         report.trace_cpu * area_ratio(probe)};
     return effects;
 }
 
@@ -110,6 +132,66 @@ int choose_in_flight(const CostModel& cost, int sections, int lanes_of_rank, int
     return lanes_of_rank * (1 + extra);
 }
 
+// What there is to render with.
+struct Cores {
+    std::vector<int> slots;  // of the ranks that render
+    int ranks = 0, most_of_a_rank = 0;
+
+    // Launches of so many threads that can run side by side, at least one on each rank.
+    int lanes(int threads) const {
+        return std::accumulate(slots.begin(), slots.end(), 0, [threads](int sum, int n) {
+            return sum + std::max(1, n / threads);
+        });
+    }
+};
+
+Cores count_cores(const std::vector<int>& slots) {
+    Cores cores;
+    std::copy_if(slots.begin(), slots.end(), std::back_inserter(cores.slots),
+                 [](int n) { return n > 0; });
+    if (cores.slots.empty())
+        throw std::invalid_argument(
+            "no rank is left to render: start more than one with --dedicated-coordinator");
+    cores.ranks = static_cast<int>(cores.slots.size());
+    cores.most_of_a_rank = *std::max_element(cores.slots.begin(), cores.slots.end());
+    return cores;
+}
+
+// How many sections, and launches of how many threads.
+Choice choose_sections(const PlanRequest& request, const GridRequest& grid, const CostModel& cost,
+                       const Cores& cores, bool pinned) {
+    const long long most = most_sections(grid, request.shape.value_or(Shape::tiles));
+    // With a halo a launch renders its section as one block, and threads share whole blocks.
+    const bool one_thread = grid.seams == Seams::halo;
+    const int threads = one_thread ? 1 : request.threads.value_or(1);
+    if (request.sections) {
+        // The bounds of MPIPOV2: n+1 <= G <= W; the upper one is the grid's own.
+        if (request.dedicated_coordinator && request.schedule == Policy::dynamic &&
+            *request.sections < cores.ranks + 1)
+            throw std::invalid_argument(fmt::format(
+                "--sections {}: {} rendering ranks with --dedicated-coordinator need at least {}",
+                *request.sections, cores.ranks, cores.ranks + 1));
+        return {*request.sections, threads, 0};
+    }
+    if (pinned) {
+        const double wanted = static_cast<double>(grid.region.area()) / pinned_section_pixels;
+        return {clamp_to(std::llround(wanted), std::min<long long>(fewest_pinned, most),
+                         std::min<long long>(most_pinned, most)),
+                threads, 0};
+    }
+    const int lanes = cores.lanes(threads);
+    if (request.schedule == Policy::static_) return {clamp_to(lanes, 1, most), threads, 0};
+    Choice choice = cheapest(cost, lanes, threads, most);
+    if (!request.threads && !one_thread && cores.most_of_a_rank > 1) {
+        const Choice threaded = cheapest(cost, cores.ranks, cores.most_of_a_rank, most);
+        if (threaded.wall < choice.wall) choice = threaded;
+    }
+    if (request.dedicated_coordinator)
+        choice.sections =
+            clamp_to(choice.sections, std::min<long long>(cores.ranks + 1, most), most);
+    return choice;
+}
+
 }  // namespace
 
 double CostModel::wall_seconds(int sections, int lanes, int threads) const {
@@ -121,13 +203,12 @@ double CostModel::wall_seconds(int sections, int lanes, int threads) const {
     return startup_wall + work + imbalance;
 }
 
-CostModel make_cost_model(const ProbeResult& probe) {
+CostModel make_cost_model(const ProbeResult& given) {
+    const ProbeResult probe = with_sane_times(given);
     CostModel cost;
     const LaunchReport& report = probe.report;
-    const double ratio = static_cast<double>(probe.image.region.area()) /
-                         static_cast<double>(std::max(1LL, probe.probe_pixels));
     const double frame = static_cast<double>(probe.image.width) * probe.image.height;
-    cost.render = report.trace_cpu * ratio;
+    cost.render = report.trace_cpu * area_ratio(probe);
     cost.per_launch =
         bare_launch_cpu + report.parse_cpu + report.photon_cpu + frame_pixel_cpu * frame;
     // The pretrace looks at the section only, but it must light that section's surroundings too:
@@ -136,14 +217,13 @@ CostModel make_cost_model(const ProbeResult& probe) {
     return cost;
 }
 
-Plan make_plan(const PlanRequest& request, const ProbeResult& probe) {
+Plan make_plan(const PlanRequest& request, const ProbeResult& given) {
+    const ProbeResult probe = with_sane_times(given);
     Plan plan;
     const CostModel cost = make_cost_model(probe);
     const Antialiasing& aa = probe.report.antialiasing;
-    const double ratio = static_cast<double>(probe.image.region.area()) /
-                         static_cast<double>(std::max(1LL, probe.probe_pixels));
     PlanRecord& record = plan.record;
-    record.effects = find_effects(probe, ratio);
+    record.effects = find_effects(probe);
     const bool pinned = record.effects.at("order_dependent").on;
     record.image = probe.stored;
     record.image.width = probe.image.width;
@@ -156,56 +236,25 @@ Plan make_plan(const PlanRequest& request, const ProbeResult& probe) {
     grid.block = probe.user_block > 0 ? probe.user_block : povray_block;
     grid.halo = grid.seams == Seams::halo ? request.halo : 0;
 
-    const int ranks = static_cast<int>(
-        std::count_if(request.slots.begin(), request.slots.end(), [](int n) { return n > 0; }));
-    if (ranks == 0)
-        throw std::invalid_argument(
-            "no rank is left to render: start more than one with --dedicated-coordinator");
-    const int cores = std::accumulate(request.slots.begin(), request.slots.end(), 0);
-    const int threads_per_host = *std::max_element(request.slots.begin(), request.slots.end());
-
-    // How many sections, and launches of how many threads.
-    const long long most =
-        request.shape ? most_sections(grid, *request.shape) : most_sections(grid, Shape::tiles);
-    Choice choice;
-    if (request.sections) {
-        choice.sections = *request.sections;
-        choice.threads = request.threads.value_or(1);
-        const bool paper_bounds =
-            request.dedicated_coordinator && request.schedule == Policy::dynamic;
-        if (paper_bounds && choice.sections < ranks + 1)
-            throw std::invalid_argument(fmt::format(
-                "--sections {}: {} rendering ranks with --dedicated-coordinator need at least {}",
-                choice.sections, ranks, ranks + 1));
-    } else if (pinned) {
-        choice.sections = clamp_to(
-            std::llround(static_cast<double>(grid.region.area()) / pinned_section_pixels),
-            std::min<long long>(fewest_pinned, most), std::min<long long>(most_pinned, most));
-        choice.threads = request.threads.value_or(1);
-    } else if (request.schedule == Policy::static_) {
-        choice.threads = request.threads.value_or(1);
-        choice.sections = clamp_to(cores / choice.threads, 1, most);
-    } else {
-        choice = cheapest(
-            cost,
-            cores / request.threads.value_or(1) > 0 ? cores / request.threads.value_or(1) : ranks,
-            request.threads.value_or(1), most);
-        if (!request.threads && threads_per_host > 1) {
-            const Choice threaded = cheapest(cost, ranks, threads_per_host, most);
-            if (threaded.wall < choice.wall) choice = threaded;
-        }
-        if (request.dedicated_coordinator)
-            choice.sections = clamp_to(choice.sections, ranks + 1, most);
-    }
+    const Cores cores = count_cores(request.slots);
+    const Choice choice = choose_sections(request, grid, cost, cores, pinned);
     if (pinned && choice.threads > 1)
         plan.notes.push_back(
             "the scene depends on the order of rendering: with more than one thread a launch, "
             "no two runs are alike");
+    if (request.threads.value_or(1) > choice.threads)
+        plan.notes.push_back("with halo seams a launch has one thread: --threads does nothing");
 
     grid.sections = choice.sections;
     grid.shape = request.shape.value_or(
         choice.sections <= most_sections(grid, Shape::columns) ? Shape::columns : Shape::tiles);
-    plan.partition = make_partition(grid);
+    try {
+        plan.partition = make_partition(grid);
+    } catch (const std::invalid_argument& error) {
+        if (!request.sections) throw;
+        throw std::invalid_argument(
+            fmt::format("--sections {}: {}", *request.sections, error.what()));
+    }
 
     record.shape = grid.shape;
     record.seams = grid.seams;
@@ -214,15 +263,16 @@ Plan make_plan(const PlanRequest& request, const ProbeResult& probe) {
     record.sections = choice.sections;
     record.schedule = to_string(request.schedule);
     record.threads = choice.threads;
-    const int lanes_of_rank = std::max(1, threads_per_host / choice.threads);
-    const int all_lanes = std::max(ranks, cores / choice.threads);
+    const int lanes_of_rank = std::max(1, cores.most_of_a_rank / choice.threads);
+    const int all_lanes = cores.lanes(choice.threads);
     record.in_flight = request.in_flight.value_or(
         choose_in_flight(cost, choice.sections, lanes_of_rank, choice.threads, all_lanes));
     record.predicted = {cost.wall_seconds(choice.sections, all_lanes, choice.threads),
                         cost.cpu_seconds(choice.sections)};
-    if (choice.sections < ranks)
+    if (choice.sections < cores.ranks)
         plan.notes.push_back(fmt::format("{} of {} ranks have nothing to render: {} sections",
-                                         ranks - choice.sections, ranks, choice.sections));
+                                         cores.ranks - choice.sections, cores.ranks,
+                                         choice.sections));
     return plan;
 }
 

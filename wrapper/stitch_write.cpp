@@ -32,7 +32,7 @@ using Bytes = std::span<const std::byte>;
 class OutputFile : public OIIO::Filesystem::IOProxy {
   public:
     explicit OutputFile(const fs::path& path)
-        : IOProxy(path.string(), Write), file_(std::fopen(path.c_str(), "w+b")) {
+        : IOProxy(path.string(), Write), file_(std::fopen(path.c_str(), "w+b"), &std::fclose) {
         if (!file_) note_error();
     }
 
@@ -46,7 +46,7 @@ class OutputFile : public OIIO::Filesystem::IOProxy {
     }
 
     std::size_t write(const void* bytes, std::size_t size) override {
-        if (!file_) return 0;
+        if (!file_ || size == 0) return 0;
         const std::size_t written = std::fwrite(bytes, 1, size, file_.get());
         if (written != size) note_error();
         m_pos += static_cast<std::int64_t>(written);
@@ -74,16 +74,12 @@ class OutputFile : public OIIO::Filesystem::IOProxy {
     int first_error() const { return first_error_; }
 
   private:
-    struct Close {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-
     bool note_error() {
         if (first_error_ == 0) first_error_ = errno != 0 ? errno : EIO;
         return false;
     }
 
-    std::unique_ptr<std::FILE, Close> file_;
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
     std::int64_t size_ = 0;
     int first_error_ = 0;
 };

@@ -7,11 +7,12 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <csignal>
 #include <map>
 #include <ostream>
-#include <regex>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace mpipov {
@@ -28,10 +29,19 @@ Canvas canvas_of(const fs::path& file) {
     return canvas;
 }
 
-// Times of rendering differ between two files, and nothing else may.
-std::string without_dates(const std::string& text) {
-    static const std::regex date(R"(\d{4}[-:]\d\d[-:]\d\d \d\d:\d\d:\d\dZ?)");
-    return std::regex_replace(text, date, "<date>");
+// Times of rendering differ between two files, and nothing else may: 2026-11-22 20:49:46, in a PNG
+// also with colons.
+std::string without_dates(std::string text) {
+    constexpr std::string_view form = "0000-00-00 00:00:00";
+    const auto fits = [](char c, char expected) {
+        if (expected == '0') return c >= '0' && c <= '9';
+        return c == expected || (expected == '-' && c == ':');
+    };
+    for (std::size_t at = 0; at + form.size() <= text.size(); ++at)
+        if (std::equal(form.begin(), form.end(), text.begin() + static_cast<std::ptrdiff_t>(at),
+                       [&](char expected, char c) { return fits(c, expected); }))
+            text.replace(at, form.size(), "<date>");
+    return text;
 }
 
 using Attributes = std::map<std::string, std::string>;
@@ -149,7 +159,6 @@ INSTANTIATE_TEST_SUITE_P(
         WriteCase{"P16_from_png", "+FP16", "pnm", "+FN16", 0, false, true},
         WriteCase{"P16_gamma_from_png", "+FP16 File_Gamma=1.8", "pnm", "+FN16 File_Gamma=1.8", 0,
                   false, true},
-        WriteCase{"P16_gray_from_png", "+FPg Bits_Per_Color=16", "pnm", "+FNg", 0, false, true},
         WriteCase{"P16_gray", "+FPg Bits_Per_Color=16", "pnm", "", 0, false, true},
         WriteCase{"T", "+FT", "targa", ""}, WriteCase{"T_alpha", "+FT +UA", "targa", ""},
         WriteCase{"T_from_png", "+FT", "targa", "+FN8"},

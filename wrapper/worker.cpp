@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
+#include <iterator>
 #include <stdexcept>
+#include <utility>
 
 namespace mpipov {
 namespace {
@@ -16,7 +19,11 @@ std::string describe_end(const ChildProcess& child) {
     const ChildResult& result = child.result();
     if (result.timed_out)
         return fmt::format("POV-Ray did not end within {:.0f} s (--timeout)", result.wall_seconds);
-    if (result.signal) return fmt::format("POV-Ray was ended by signal {}", *result.signal);
+    if (result.signal) {
+        const char* name = ::sigabbrev_np(*result.signal);
+        return fmt::format("POV-Ray was ended by signal {} (SIG{})", *result.signal,
+                           name != nullptr ? name : "?");
+    }
     return fmt::format("POV-Ray: {}", parse_error(child.output()));
 }
 
@@ -26,6 +33,17 @@ std::filesystem::path find_image(const std::filesystem::path& folder) {
     for (const auto& entry : std::filesystem::directory_iterator(folder))
         if (entry.path().extension() != ".pov-state") return entry.path();
     throw std::runtime_error("POV-Ray wrote no image");
+}
+
+Worker::Folder::Folder(std::filesystem::path path) : path_(std::move(path)) {
+    std::filesystem::create_directory(path_);
+}
+
+Worker::Folder::Folder(Folder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+
+Worker::Folder::~Folder() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
 }
 
 Worker::Worker(Transport& transport, std::filesystem::path scratch)
@@ -56,14 +74,13 @@ void Worker::start(const Message& message) {
     Section section{message.head.at("section"), rect_from_json(message.head.at("keep")),
                     rect_from_json(message.head.at("render"))};
     const int attempt = message.head.at("attempt");
-    const std::filesystem::path folder = scratch_ / fmt::format("{}-{}", section.id, attempt);
     try {
-        std::filesystem::create_directory(folder);
+        Folder folder(scratch_ / fmt::format("{}-{}", section.id, attempt));
         ChildRequest request;
-        request.argv = section_command(job_, section.render, image_, folder / "section");
+        request.argv = section_command(job_, section.render, image_, folder.path() / "section");
         request.timeout_seconds = timeout_seconds_;
         launches_.push_back(
-            {section, attempt, folder, ChildProcess::start(request), std::nullopt, 0});
+            {section, attempt, std::move(folder), ChildProcess::start(request), std::nullopt, 0});
     } catch (const std::exception& error) {
         transport_.send({MessageKind::failed,
                          coordinator,
@@ -84,13 +101,7 @@ bool Worker::step() {
     for (auto it = launches_.begin(); it != launches_.end();) {
         const State state = step(*it);
         busy = busy || state != State::idle;
-        if (state == State::over) {
-            std::error_code ignored;
-            std::filesystem::remove_all(it->folder, ignored);
-            it = launches_.erase(it);
-        } else {
-            ++it;
-        }
+        it = state == State::over ? launches_.erase(it) : std::next(it);
     }
     return busy;
 }
@@ -113,14 +124,14 @@ Worker::State Worker::begin_reading(Launch& launch) {
         send_failure(launch, describe_end(launch.child));
         return State::over;
     }
-    launch.reader.emplace(find_image(launch.folder), image_.width, image_.height,
+    launch.reader.emplace(find_image(launch.folder.path()), image_.width, image_.height,
                           launch.section.render, max_band_bytes);
     return State::busy;
 }
 
 Worker::State Worker::send_bands(Launch& launch) {
-    // Never more than two bands under way: the coordinator sets the pace.
-    if (transport_.unsent_bytes() >= 2 * max_band_bytes) return State::idle;
+    // No more than two whole bands under way: the coordinator sets the pace.
+    if (transport_.unsent_bytes() > max_band_bytes + max_band_bytes / 2) return State::idle;
     if (std::optional<Band> band = launch.reader->next()) {
         nlohmann::json head = head_of(launch);
         head["rect"] = rect_to_json(band->rect);
@@ -172,7 +183,7 @@ void Worker::stop() {
     stopped_ = true;
     // First all of them, so that they end side by side; then ~ChildProcess waits for each.
     for (Launch& launch : launches_) launch.child.kill_now();
-    launches_.clear();  // their folders go with the rank's scratch folder
+    launches_.clear();
 }
 
 }  // namespace mpipov

@@ -34,14 +34,26 @@ class Worker {
     void add_poll_fds(std::vector<pollfd>& fds) const;
     int wait_milliseconds(int at_most) const;
 
-    // Ends every launch at once.
+    // Ends every launch at once; nothing of them is left.
     void stop();
 
   private:
+    // Removed with all that is in it.
+    class Folder {
+      public:
+        explicit Folder(std::filesystem::path path);
+        Folder(Folder&& other) noexcept;
+        Folder& operator=(Folder&&) = delete;
+        ~Folder();
+        const std::filesystem::path& path() const { return path_; }
+
+      private:
+        std::filesystem::path path_;
+    };
     struct Launch {
         Section section;
         int attempt = 0;
-        std::filesystem::path folder;
+        Folder folder;  // before the child, which must be gone when it is removed
         ChildProcess child;
         std::optional<SectionReader> reader;  // once POV-Ray has ended
         double last_fraction = 0;

@@ -1,0 +1,222 @@
+#include "event_loop.h"
+
+#include "coordinator_test_support.h"
+#include "failure.h"
+#include "fake_povray_test_support.h"
+#include "interrupt.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace mpipov {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr Rect frame{0, 0, 64, 48};
+
+double thread_cpu_seconds() {
+    rusage usage{};
+    getrusage(RUSAGE_THREAD, &usage);
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+// Rank 0 with a coordinator, in the test's thread; the other ranks in threads of their own. All of
+// them launch the stand-in for POV-Ray.
+class EventLoopTest : public FakePovrayTest {
+  protected:
+    static CoordinatorSetup setup(int ranks, int sections) {
+        CoordinatorSetup c;
+        c.partition = make_partition({frame, Shape::columns, Seams::halo, sections, 2, 32});
+        c.image = {frame.width(), frame.height()};
+        c.job = fake_job(c.image);
+        c.timeout_seconds = 60;
+        for (int rank = 0; rank < ranks; ++rank) c.ranks.push_back({rank, "host", 1, 0, 0});
+        return c;
+    }
+
+    // Until the image is finished, or whatever `coordinator` or `every_step` throw.
+    RunRecord run(CoordinatorSetup c, const std::function<void()>& every_step = {}) {
+        const int size = static_cast<int>(c.ranks.size());
+        InProcessRanks ranks(size);
+        Canvas canvas({frame.width(), frame.height(), known_channels, Depth::uint8});
+        Coordinator coordinator(std::move(c), ranks.at(0), canvas, nullptr, now);
+        std::vector<std::jthread> threads;
+        for (int rank = 1; rank < size; ++rank)
+            threads.emplace_back([&, rank] {
+                const ScratchFolder scratch("protocol-test");
+                Worker worker(ranks.at(rank), scratch.path());
+                run_event_loop({ranks.at(rank), worker});
+            });
+        Worker worker(ranks.at(0), scratch_.path());
+        try {
+            coordinator.start();
+            run_event_loop({ranks.at(0), worker, &coordinator, every_step});
+        } catch (...) {
+            worker.stop();
+            coordinator.stop_workers();
+            throw;
+        }
+        coordinator.stop_workers();
+        threads.clear();
+        EXPECT_EQ(ranks.waiting(), 1u) << "rank 0's own stop, which it did not wait for";
+        EXPECT_TRUE(holds_known_picture(canvas, frame));
+        RunRecord record;
+        coordinator.fill(record);
+        return record;
+    }
+};
+
+TEST_F(EventLoopTest, RendersAlone) {
+    const RunRecord record = run(setup(1, 3));
+    EXPECT_EQ(record.totals.launches, 3);
+    EXPECT_EQ(record.ranks[0].sections, 3);
+}
+
+TEST_F(EventLoopTest, RendersOnSeveralRanks) {
+    CoordinatorSetup c = setup(3, 12);
+    c.in_flight = 2;
+    const RunRecord record = run(c);
+    EXPECT_EQ(record.totals.launches, 12);
+    for (const RankRecord& rank : record.ranks) EXPECT_GT(rank.sections, 0);
+    for (const SeamRecord& seam : record.seams) EXPECT_TRUE(seam.checked);
+}
+
+TEST_F(EventLoopTest, ADedicatedCoordinatorRendersNothing) {
+    CoordinatorSetup c = setup(3, 6);
+    c.ranks[0].slots = 0;
+    const RunRecord record = run(c);
+    EXPECT_EQ(record.ranks[0].sections, 0);
+    EXPECT_EQ(record.totals.launches, 6);
+}
+
+TEST_F(EventLoopTest, GoesOnAfterEveryKindOfFault) {
+    for (const std::string fault : {"error", "crash", "no-file", "truncated", "wrong-size"}) {
+        const Environment what("FAKE_POVRAY", fault),
+            once("FAKE_POVRAY_ONCE", (elsewhere_.path() / fault).string());
+        const RunRecord record = run(setup(2, 4));
+        EXPECT_EQ(record.totals.retries, 1) << fault;
+        EXPECT_EQ(record.totals.launches, 5) << fault;
+    }
+}
+
+TEST_F(EventLoopTest, EndsWithPovraysErrorWhereASectionAlwaysFails) {
+    const Environment fault("FAKE_POVRAY", "error"), column("FAKE_POVRAY_COLUMN", "31");
+    try {
+        run(setup(2, 2));
+        FAIL() << "it went through";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), Exit::scene);
+        EXPECT_THAT(failure.what(), HasSubstr("Undeclared identifier"));
+        EXPECT_THAT(failure.what(), HasSubstr("3 times"));
+    }
+}
+
+TEST_F(EventLoopTest, ARankThatRefusesEndsTheRun) {
+    InProcessRanks ranks(2);
+    Canvas canvas({frame.width(), frame.height(), known_channels, Depth::uint8});
+    Coordinator coordinator(setup(2, 2), ranks.at(0), canvas, nullptr, now);
+    Worker worker(ranks.at(0), scratch_.path());
+    ranks.at(1).send({MessageKind::refused, 0, {{"code", 5}, {"why", "interrupted"}}, {}});
+    try {
+        run_event_loop({ranks.at(0), worker, &coordinator});
+        FAIL() << "it went on";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), Exit::interrupted);
+        EXPECT_STREQ(failure.what(), "interrupted");
+    }
+}
+
+TEST_F(EventLoopTest, ASignalEndsTheLaunches) {
+    sigset_t before{};
+    pthread_sigmask(SIG_SETMASK, nullptr, &before);
+    block_interrupts();
+    const Environment fault = faults("hang");
+    const double begin = now();
+    int steps = 0;
+    try {
+        run(setup(1, 2), [&] {
+            if (++steps == 5) pthread_kill(pthread_self(), SIGTERM);
+        });
+        ADD_FAILURE() << "it went on";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), Exit::interrupted);
+    }
+    EXPECT_LT(now() - begin, 20) << "a launch that hangs has held it up";
+    sigset_t term{};
+    sigemptyset(&term);
+    sigaddset(&term, SIGTERM);
+    const timespec at_once{};
+    EXPECT_EQ(sigtimedwait(&term, nullptr, &at_once), SIGTERM);
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+TEST_F(EventLoopTest, PassesOnWhatAStepThrows) {
+    int steps = 0;
+    const auto every_step = [&] {
+        if (++steps == 3) throw std::runtime_error("the third step");
+    };
+    const Environment fault = faults("hang");
+    EXPECT_THROW(run(setup(1, 2), every_step), std::runtime_error);
+    EXPECT_EQ(steps, 3);
+}
+
+// Waiting must not use the core that a launch on this host needs.
+TEST_F(EventLoopTest, SleepsWhileItWaits) {
+    constexpr double watched_seconds = 2;
+    for (const bool launched : {false, true}) {
+        const Environment fault = faults("hang");
+        InProcessRanks ranks(2);
+        Canvas canvas({frame.width(), frame.height(), known_channels, Depth::uint8});
+        CoordinatorSetup c = setup(2, 1);
+        c.ranks[launched ? 1 : 0].slots = 0;
+        Coordinator coordinator(std::move(c), ranks.at(0), canvas, nullptr, now);
+        Worker worker(ranks.at(0), scratch_.path());
+        coordinator.start();
+        double began = 0, cpu = 0;
+        const auto every_step = [&] {
+            if (began == 0 && ranks.waiting() == (launched ? 1 : 2)) {
+                began = now();
+                cpu = thread_cpu_seconds();
+            }
+            if (began > 0 && now() - began > watched_seconds) throw std::runtime_error("enough");
+        };
+        EXPECT_THROW(run_event_loop({ranks.at(0), worker, &coordinator, every_step}),
+                     std::runtime_error);
+        EXPECT_LT((thread_cpu_seconds() - cpu) / watched_seconds, 0.01)
+            << (launched ? "with a launch" : "without a launch");
+        worker.stop();
+    }
+}
+
+TEST(WaitForMessage, ReturnsTheMessageOrNothingInTime) {
+    InProcessRanks ranks(2);
+    const double begin = now();
+    EXPECT_FALSE(wait_for_message(ranks.at(0), 0.05));
+    EXPECT_GE(now() - begin, 0.05);
+    ranks.at(1).send({MessageKind::hello, 0, {{"slots", 4}}, {}});
+    const auto message = wait_for_message(ranks.at(0), 60);
+    ASSERT_TRUE(message);
+    EXPECT_EQ(message->kind, MessageKind::hello);
+    EXPECT_EQ(message->peer, 1);
+    EXPECT_EQ(message->head.at("slots"), 4);
+}
+
+}  // namespace
+}  // namespace mpipov

@@ -1,0 +1,126 @@
+// The worker's half of the protocol without processes and files, for tests of the coordinator:
+// "renders" with a function, one message a step, and fails where it is told to.
+#pragma once
+
+#include "known_picture.h"
+#include "section.h"
+#include "transport.h"
+
+#include <algorithm>
+#include <functional>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mpipov {
+
+struct Assignment {
+    Section section;
+    int attempt = 0;
+};
+
+struct FakeWorkerSetup {
+    // The pixels of `render`, row by row.
+    std::function<std::vector<std::byte>(const Rect& render)> render = known_pixels;
+    // Why the assignment fails on this rank; empty: it does not.
+    std::function<std::string(int rank, const Assignment&)> fault = [](int, const Assignment&) {
+        return std::string();
+    };
+    int band_rows = 5;
+};
+
+class FakeWorker {
+  public:
+    FakeWorker(Transport& transport, FakeWorkerSetup setup)
+        : transport_(transport), setup_(std::move(setup)) {}
+
+    void handle(const Message& message) {
+        if (message.kind == MessageKind::job) {
+            has_job_ = true;
+        } else if (message.kind == MessageKind::stop) {
+            stopped_ = true;
+        } else if (message.kind == MessageKind::assign) {
+            if (!has_job_) throw std::logic_error("assigned a section before the job was sent");
+            const Assignment assignment{
+                {message.head.at("section"), rect_from_json(message.head.at("keep")),
+                 rect_from_json(message.head.at("render"))},
+                message.head.at("attempt")};
+            assignments_.push_back(assignment);
+            launches_.push_back({assignment, {}, assignment.section.render.y0, false});
+            most_in_flight_ = std::max(most_in_flight_, static_cast<int>(launches_.size()));
+        } else {
+            throw std::logic_error("a message that is not for workers");
+        }
+    }
+
+    // Sends the next message of one of the launches.
+    void step(std::mt19937& random) {
+        if (launches_.empty()) return;
+        const auto it =
+            launches_.begin() + static_cast<std::ptrdiff_t>(random() % launches_.size());
+        if (advance(*it)) launches_.erase(it);
+    }
+
+    bool stopped() const { return stopped_; }
+    int most_in_flight() const { return most_in_flight_; }
+    const std::vector<Assignment>& assignments() const { return assignments_; }
+
+    // What comes ahead of a failure must not be seen in the result.
+    static constexpr std::byte garbage{0xee};
+
+  private:
+    struct Launch {
+        Assignment assignment;
+        std::vector<std::byte> pixels;
+        int next_row = 0;
+        bool reported = false;
+    };
+
+    // True after its last message.
+    bool advance(Launch& launch) {
+        const Rect& render = launch.assignment.section.render;
+        const std::string why = setup_.fault(transport_.rank(), launch.assignment);
+        if (!launch.reported) {
+            launch.reported = true;
+            launch.pixels = setup_.render(render);
+            if (!why.empty()) std::ranges::fill(launch.pixels, garbage);
+            send(launch, MessageKind::progress, {{"fraction", 0.5}});
+            return false;
+        }
+        if (!why.empty() && launch.next_row > render.y0) {
+            send(launch, MessageKind::failed, {{"why", why}, {"cpu_seconds", 1.0}});
+            return true;
+        }
+        if (launch.next_row < render.y1) {
+            const int end = std::min(launch.next_row + setup_.band_rows, render.y1);
+            const Rect rect{render.x0, launch.next_row, render.x1, end};
+            const auto row = static_cast<std::ptrdiff_t>(render.width()) * known_channels;
+            const auto from = launch.pixels.begin() + row * (rect.y0 - render.y0);
+            send(launch, MessageKind::band, {{"rect", rect_to_json(rect)}},
+                 {from, from + row * rect.height()});
+            launch.next_row = end;
+            return false;
+        }
+        send(launch, MessageKind::done,
+             {{"wall_seconds", 2.0}, {"cpu_seconds", 1.0}, {"warnings", {"the same warning"}}});
+        return true;
+    }
+
+    void send(const Launch& launch, MessageKind kind, nlohmann::json head,
+              std::vector<std::byte> body = {}) {
+        head["section"] = launch.assignment.section.id;
+        head["attempt"] = launch.assignment.attempt;
+        transport_.send({kind, 0, std::move(head), std::move(body)});
+    }
+
+    Transport& transport_;
+    FakeWorkerSetup setup_;
+    bool has_job_ = false, stopped_ = false;
+    int most_in_flight_ = 0;
+    std::vector<Launch> launches_;
+    std::vector<Assignment> assignments_;
+};
+
+}  // namespace mpipov

@@ -1,0 +1,277 @@
+#include "journal.h"
+
+#include "failure.h"
+#include "scratch.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace mpipov {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const json identity{{"scene", "0123abcd"}, {"arguments", {"a.pov", "+W64"}}};
+const json plan{{"grid", {{"sections", 4}}}};
+constexpr Rect render{0, 0, 4, 6};
+
+// 24 bytes of one channel, six rows of four pixels.
+std::vector<std::byte> pixels_of(int section) {
+    std::vector<std::byte> pixels(24);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        pixels[i] = static_cast<std::byte>(i * 5 + static_cast<std::size_t>(section) * 31);
+    return pixels;
+}
+
+class JournalTest : public testing::Test {
+  protected:
+    const fs::path& folder() const { return folder_; }
+
+    static void take_all(Journal& journal, int section) {
+        const std::vector<std::byte> pixels = pixels_of(section);
+        const std::span<const std::byte> rows(pixels);
+        journal.take(section, render, {0, 0, 4, 2}, rows.first(8));
+        journal.take(section, render, {0, 2, 4, 6}, rows.subspan(8));
+    }
+    static void add(Journal& journal, int section) {
+        take_all(journal, section);
+        journal.finish(section, {{"rank", section * 10}});
+    }
+    // A journal of sections 0, 1 and 2 that an earlier run left.
+    void leave_three() const {
+        Journal journal = Journal::create(folder(), identity, plan);
+        for (int section = 0; section < 3; ++section) add(journal, section);
+    }
+    static std::vector<int> ids(const Journal& journal) {
+        std::vector<int> found;
+        for (const Journal::Finished& finished : journal.finished())
+            found.push_back(finished.section);
+        return found;
+    }
+    static std::string read(const fs::path& file) {
+        std::ifstream in(file, std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+    static void write(const fs::path& file, const std::string& text) {
+        std::ofstream(file, std::ios::binary) << text;
+    }
+    static void expect_failure(Exit code, const std::string& text,
+                               const std::function<void()>& action) {
+        try {
+            action();
+            FAIL() << "nothing was thrown";
+        } catch (const Failure& failure) {
+            EXPECT_EQ(failure.code(), code);
+            EXPECT_THAT(failure.what(), HasSubstr(text));
+        }
+    }
+
+  private:
+    ScratchFolder scratch_{"journal-test"};
+    fs::path folder_ = scratch_.path() / "picture.png.mpipov";
+};
+
+TEST_F(JournalTest, GivesBackWhatWasFinished) {
+    leave_three();
+    const Journal journal = Journal::open(folder(), identity);
+    EXPECT_EQ(journal.plan(), plan);
+    const auto finished = journal.finished();
+    ASSERT_EQ(finished.size(), 3u);
+    for (int section = 0; section < 3; ++section) {
+        const auto i = static_cast<std::size_t>(section);
+        EXPECT_EQ(finished[i].section, section);
+        EXPECT_EQ(finished[i].about, json({{"rank", section * 10}}));
+        EXPECT_EQ(journal.read(section), pixels_of(section));
+    }
+}
+
+TEST_F(JournalTest, SectionsMayComeInterleaved) {
+    {
+        Journal journal = Journal::create(folder(), identity, plan);
+        const auto a = pixels_of(0), b = pixels_of(1);
+        journal.take(0, render, {0, 0, 4, 3}, std::span(a).first(12));
+        journal.take(1, render, {0, 0, 4, 3}, std::span(b).first(12));
+        journal.take(1, render, {0, 3, 4, 6}, std::span(b).subspan(12));
+        journal.take(0, render, {0, 3, 4, 6}, std::span(a).subspan(12));
+        journal.finish(1, json::object());
+        journal.finish(0, json::object());
+    }
+    const Journal journal = Journal::open(folder(), identity);
+    EXPECT_EQ(journal.read(0), pixels_of(0));
+    EXPECT_EQ(journal.read(1), pixels_of(1));
+}
+
+TEST_F(JournalTest, ASectionUnderWayDoesNotCount) {
+    {
+        Journal journal = Journal::create(folder(), identity, plan);
+        add(journal, 0);
+        take_all(journal, 1);
+    }
+    EXPECT_THAT(ids(Journal::open(folder(), identity)), ElementsAre(0));
+}
+
+TEST_F(JournalTest, AFirstRowBeginsASectionAnew) {
+    {
+        Journal journal = Journal::create(folder(), identity, plan);
+        const auto pixels = pixels_of(7);
+        journal.take(0, render, {0, 0, 4, 5}, std::span(pixels).first(20));  // a lost attempt
+        add(journal, 0);
+    }
+    const Journal journal = Journal::open(folder(), identity);
+    EXPECT_THAT(ids(journal), ElementsAre(0));
+    EXPECT_EQ(journal.read(0), pixels_of(0));
+}
+
+TEST_F(JournalTest, ALineThatWasCutOffDoesNotCountAndSpoilsNoOther) {
+    leave_three();
+    const fs::path lines = folder() / "sections.jsonl";
+    const std::string whole = read(lines);
+    for (const std::size_t cut : {2, 10, 30}) {
+        SCOPED_TRACE(cut);
+        write(lines, whole.substr(0, whole.size() - cut));
+        Journal journal = Journal::open(folder(), identity);
+        EXPECT_THAT(ids(journal), ElementsAre(0, 1));
+        add(journal, 3);
+        EXPECT_THAT(ids(journal), ElementsAre(0, 1, 3));
+    }
+    // Only the line's end is missing: all that it says is there.
+    write(lines, whole.substr(0, whole.size() - 1));
+    Journal journal = Journal::open(folder(), identity);
+    add(journal, 3);
+    EXPECT_THAT(ids(journal), ElementsAre(0, 1, 2, 3));
+}
+
+TEST_F(JournalTest, LinesThatAreNoEntriesDoNotCount) {
+    leave_three();
+    std::ofstream(folder() / "sections.jsonl", std::ios::app)
+        << "[]\n7\n{}\n{\"section\": \"1\"}\n{\"section\": 2}\n"
+        << "{\"section\": 2, \"sha1\": 5, \"about\": 1}\n";
+    EXPECT_THAT(ids(Journal::open(folder(), identity)), ElementsAre(0, 1, 2));
+}
+
+TEST_F(JournalTest, DamagedPixelsDoNotCount) {
+    leave_three();
+    std::string pixels = read(folder() / "1.pixels");
+    pixels[5] = static_cast<char>(pixels[5] ^ 1);
+    write(folder() / "1.pixels", pixels);
+    EXPECT_THAT(ids(Journal::open(folder(), identity)), ElementsAre(0, 2));
+    fs::resize_file(folder() / "2.pixels", 23);
+    EXPECT_THAT(ids(Journal::open(folder(), identity)), ElementsAre(0));
+    fs::remove(folder() / "0.pixels");
+    EXPECT_THAT(ids(Journal::open(folder(), identity)), IsEmpty());
+}
+
+TEST_F(JournalTest, FinishingWithoutPixelsIsAFailure) {
+    Journal journal = Journal::create(folder(), identity, plan);
+    expect_failure(Exit::file, "5.pixels", [&] { journal.finish(5, json::object()); });
+    EXPECT_THAT(ids(journal), IsEmpty());
+    expect_failure(Exit::file, "cannot read", [&] { journal.read(5); });
+}
+
+TEST_F(JournalTest, AResumedRunCanBeResumedAgain) {
+    leave_three();
+    {
+        Journal journal = Journal::open(folder(), identity);
+        add(journal, 3);
+    }
+    EXPECT_THAT(ids(Journal::open(folder(), identity)), ElementsAre(0, 1, 2, 3));
+}
+
+TEST_F(JournalTest, WhatChangedIsNamed) {
+    leave_three();
+    for (const auto& [key, value] :
+         {std::pair{"scene", json("ffff")}, std::pair{"arguments", json({"a.pov", "+W65"})}}) {
+        json other = identity;
+        other[key] = value;
+        expect_failure(Exit::usage, key, [&] { Journal::open(folder(), other); });
+    }
+    json more = identity;
+    more["image size"] = {64, 48};
+    expect_failure(Exit::usage, "image size", [&] { Journal::open(folder(), more); });
+}
+
+TEST_F(JournalTest, NamesThatAreNoUtf8AreTheSameAgain) {
+    const json odd{{"arguments", {"caf\xe9.pov"}}};
+    Journal::create(folder(), odd, plan);
+    EXPECT_NO_THROW(Journal::open(folder(), odd));
+}
+
+TEST_F(JournalTest, NothingToGoOnFrom) {
+    expect_failure(Exit::usage, folder().string(), [&] { Journal::open(folder(), identity); });
+    fs::create_directory(folder());
+    expect_failure(Exit::usage, "--resume", [&] { Journal::open(folder(), identity); });
+    Journal::create(folder(), identity, plan);
+    EXPECT_THAT(ids(Journal::open(folder(), identity)), IsEmpty());
+}
+
+TEST_F(JournalTest, ADamagedJournalIsNamed) {
+    leave_three();
+    for (const char* text : {"", "{", "[]", "3", "{}", "{\"format\": 5}",
+                             "{\"format\": \"mpipov-journal\", \"version\": 1}",
+                             "{\"format\": \"mpipov-journal\", \"version\": 2, \"identity\": {}, "
+                             "\"plan\": {}}"}) {
+        SCOPED_TRACE(text);
+        write(folder() / "journal.json", text);
+        expect_failure(Exit::file, "journal.json", [&] { Journal::open(folder(), identity); });
+    }
+}
+
+TEST_F(JournalTest, ANewJournalTakesThePlaceOfAnOldOne) {
+    leave_three();
+    const Journal journal = Journal::create(folder(), identity, plan);
+    EXPECT_THAT(ids(journal), IsEmpty());
+    EXPECT_FALSE(fs::exists(folder() / "1.pixels"));
+}
+
+// --work-dir may name any folder: what is not a journal's must never be lost with it.
+TEST_F(JournalTest, AFolderWithOtherFilesIsRefusedAndLeftAsItIs) {
+    fs::create_directories(folder() / "photographs");
+    write(folder() / "thesis.txt", "years");
+    expect_failure(Exit::file, "--work-dir", [&] { Journal::create(folder(), identity, plan); });
+    EXPECT_EQ(read(folder() / "thesis.txt"), "years");
+    EXPECT_TRUE(fs::exists(folder() / "photographs"));
+}
+
+TEST_F(JournalTest, RemovingLeavesWhatIsNotAJournals) {
+    leave_three();
+    Journal journal = Journal::open(folder(), identity);
+    take_all(journal, 3);
+    write(folder() / "notes.pixels", "mine");
+    journal.remove();
+    EXPECT_EQ(read(folder() / "notes.pixels"), "mine");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder()), {}), 1);
+}
+
+TEST_F(JournalTest, RemovesItselfAsAWhole) {
+    leave_three();
+    Journal::open(folder(), identity).remove();
+    EXPECT_FALSE(fs::exists(folder()));
+}
+
+TEST_F(JournalTest, AFolderThatCannotBeMadeIsNamed) {
+    write(folder(), "a file");
+    expect_failure(Exit::file, folder().string(),
+                   [&] { Journal::create(folder(), identity, plan); });
+    expect_failure(Exit::file, "/proc/none",
+                   [&] { Journal::create("/proc/none", identity, plan); });
+}
+
+TEST_F(JournalTest, Sha1OfFiles) {
+    const fs::path file = folder().parent_path() / "file";
+    write(file, "abc");  // FIPS 180-4's own example
+    EXPECT_EQ(sha1_of_file(file), "a9993e364706816aba3e25717850c26c9cd0d89d");
+    EXPECT_EQ(sha1_of_file(folder() / "none"), "");
+}
+
+}  // namespace
+}  // namespace mpipov

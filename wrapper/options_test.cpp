@@ -1,0 +1,251 @@
+#include "options.h"
+
+#include "failure.h"
+#include "scratch.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <regex>
+#include <set>
+
+namespace mpipov {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+struct Case {
+    const char* name;
+    const char* value;  // nullptr: a flag
+    std::function<bool(const Options&)> holds;
+};
+
+// Every option once, with a value that is not its default.
+std::vector<Case> cases() {
+    return {
+        {"sections", "7", [](const Options& o) { return o.sections == 7; }},
+        {"shape", "rows", [](const Options& o) { return o.shape == Shape::rows; }},
+        {"seams", "plain", [](const Options& o) { return o.seams == Seams::plain; }},
+        {"schedule", "static", [](const Options& o) { return o.schedule == Policy::static_; }},
+        {"slots", "3", [](const Options& o) { return o.slots == 3; }},
+        {"threads", "4", [](const Options& o) { return o.threads == 4; }},
+        {"in-flight", "5", [](const Options& o) { return o.in_flight == 5; }},
+        {"dedicated-coordinator", nullptr,
+         [](const Options& o) { return o.dedicated_coordinator; }},
+        {"record", "r.json", [](const Options& o) { return o.record == "r.json"; }},
+        {"work-dir", "w", [](const Options& o) { return o.work_dir == "w"; }},
+        {"povray", "/opt/povray", [](const Options& o) { return o.povray == "/opt/povray"; }},
+        {"resume", nullptr, [](const Options& o) { return o.resume; }},
+        {"timeout", "2.5", [](const Options& o) { return o.timeout_seconds == 2.5; }},
+        {"retries", "0", [](const Options& o) { return o.retries == 0; }},
+        {"dry-run", nullptr, [](const Options& o) { return o.dry_run; }},
+        {"progress", "none", [](const Options& o) { return o.progress == ProgressStyle::none; }},
+        {"help", nullptr, [](const Options& o) { return o.help; }},
+        {"version", nullptr, [](const Options& o) { return o.version; }},
+        {"manual", nullptr, [](const Options& o) { return o.manual; }},
+    };
+}
+
+std::string usage_error(const std::vector<std::string>& arguments) {
+    try {
+        parse_options(arguments);
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), Exit::usage);
+        return failure.what();
+    }
+    ADD_FAILURE() << "accepted: " << testing::PrintToString(arguments);
+    return {};
+}
+
+// The options that a text shows, as --name.
+std::set<std::string> options_in(const std::string& text) {
+    std::set<std::string> names;
+    static const std::regex shape(R"((?:^|[\s,])--([a-z][a-z-]*))");
+    for (std::sregex_iterator it(text.begin(), text.end(), shape), end; it != end; ++it)
+        names.insert((*it)[1]);
+    return names;
+}
+
+std::set<std::string> all_options() {
+    std::set<std::string> names;
+    for (const Case& c : cases()) names.insert(c.name);
+    return names;
+}
+
+TEST(Options, BothWaysToGiveAValue) {
+    for (const Case& c : cases()) {
+        SCOPED_TRACE(c.name);
+        const std::string option = std::string("--") + c.name;
+        EXPECT_FALSE(c.holds(parse_options({"scene.pov"})));
+        if (c.value == nullptr) {
+            const Options options = parse_options({option, "scene.pov"});
+            EXPECT_TRUE(c.holds(options));
+            EXPECT_THAT(options.povray_arguments, ElementsAre("scene.pov"));
+            continue;
+        }
+        for (const auto& arguments :
+             {std::vector<std::string>{option, c.value, "scene.pov"},
+              std::vector<std::string>{"scene.pov", option, c.value},
+              std::vector<std::string>{option + "=" + c.value, "scene.pov"}}) {
+            const Options options = parse_options(arguments);
+            EXPECT_TRUE(c.holds(options));
+            EXPECT_THAT(options.povray_arguments, ElementsAre("scene.pov"));
+        }
+    }
+}
+
+TEST(Options, AutoIsTheDefault) {
+    const Options options = parse_options({"--sections", "auto", "--shape=auto", "--seams", "auto",
+                                           "--slots=auto", "--threads", "auto", "--in-flight=auto",
+                                           "--timeout", "auto", "--progress", "auto"});
+    EXPECT_FALSE(options.sections || options.shape || options.seams || options.slots ||
+                 options.threads || options.in_flight || options.timeout_seconds);
+    EXPECT_EQ(options.progress, ProgressStyle::automatic);
+    EXPECT_EQ(options.schedule, Policy::dynamic);
+    EXPECT_EQ(options.retries, 2);
+    EXPECT_EQ(options.povray, "povray");
+}
+
+TEST(Options, EveryWordOfAChoice) {
+    EXPECT_EQ(parse_options({"--shape=columns"}).shape, Shape::columns);
+    EXPECT_EQ(parse_options({"--shape=tiles"}).shape, Shape::tiles);
+    EXPECT_EQ(parse_options({"--seams=aligned"}).seams, Seams::aligned);
+    EXPECT_EQ(parse_options({"--schedule=dynamic"}).schedule, Policy::dynamic);
+    EXPECT_EQ(parse_options({"--progress=plain"}).progress, ProgressStyle::plain);
+    const Options halo = parse_options({"--seams=halo"});
+    EXPECT_EQ(halo.seams, Seams::halo);
+    EXPECT_EQ(halo.halo, 2);
+    EXPECT_EQ(parse_options({"--seams", "halo:5"}).halo, 5);
+}
+
+TEST(Options, PovraysOwnAreUntouchedAndInOrder) {
+    const std::vector<std::string> theirs{"scene.ini[section]",
+                                          "+W640",
+                                          "-D",
+                                          "+A0.3",
+                                          "-h",
+                                          "-",
+                                          "-sx",
+                                          "Width=3",
+                                          "+O-",
+                                          "-i",
+                                          "a b.pov"};
+    std::vector<std::string> arguments = theirs;
+    arguments.insert(arguments.begin() + 3, {"--sections", "4"});
+    arguments.insert(arguments.begin() + 8, "--dry-run");
+    arguments.emplace_back("--threads=2");
+    const Options options = parse_options(arguments);
+    EXPECT_EQ(options.povray_arguments, theirs);
+    EXPECT_EQ(options.sections, 4);
+    EXPECT_TRUE(options.dry_run);
+    EXPECT_EQ(options.threads, 2);
+}
+
+TEST(Options, ALoneDoubleDashEndsOurs) {
+    const Options options =
+        parse_options({"--retries", "1", "a.pov", "--", "--resume", "--", "-D"});
+    EXPECT_EQ(options.retries, 1);
+    EXPECT_FALSE(options.resume);
+    EXPECT_THAT(options.povray_arguments, ElementsAre("a.pov", "--resume", "--", "-D"));
+    EXPECT_THAT(parse_options({"--"}).povray_arguments, IsEmpty());
+}
+
+TEST(Options, AnUnknownOneIsNamed) {
+    for (const char* name :
+         {"--no-such", "--no-such=3", "--Sections", "--section", "--threadss=2"}) {
+        EXPECT_THAT(usage_error({"scene.pov", name, "--dry-run"}),
+                    AllOf(HasSubstr("unknown"), HasSubstr(name), HasSubstr("--help")));
+    }
+}
+
+TEST(Options, ABadValueNamesItsOption) {
+    const std::vector<std::pair<std::string, std::vector<std::string>>> bad{
+        {"sections", {"0", "-1", "many", "1.5", "3x", "", "99999999999"}},
+        {"slots", {"0", "-1", "x"}},
+        {"threads", {"0", "1e3"}},
+        {"in-flight", {"0", "two"}},
+        {"retries", {"-1", "auto", "1.0"}},
+        {"timeout", {"0", "-1", "nan", "inf", "1e999", "soon", "3s"}},
+        {"shape", {"squares", "", "Columns"}},
+        {"seams", {"halo:", "halo:0", "halo:-1", "halo:x", "haloes", "aligned:2"}},
+        {"schedule", {"cost", "auto", ""}},
+        {"progress", {"loud", ""}},
+    };
+    for (const auto& [name, values] : bad)
+        for (const std::string& value : values) {
+            SCOPED_TRACE(name + "=" + value);
+            EXPECT_THAT(usage_error({"scene.pov", "--" + name + "=" + value}),
+                        HasSubstr("--" + name));
+        }
+}
+
+TEST(Options, AMissingValueNamesItsOption) {
+    for (const Case& c : cases()) {
+        if (c.value == nullptr) continue;
+        const std::string option = std::string("--") + c.name;
+        SCOPED_TRACE(option);
+        EXPECT_THAT(usage_error({"scene.pov", option}), HasSubstr(option));
+        EXPECT_THAT(usage_error({"scene.pov", option, "--dry-run"}), HasSubstr(option));
+    }
+}
+
+TEST(Options, AFlagTakesNoValue) {
+    for (const Case& c : cases()) {
+        if (c.value != nullptr) continue;
+        const std::string option = std::string("--") + c.name;
+        SCOPED_TRACE(option);
+        EXPECT_THAT(usage_error({"scene.pov", option + "=7"}), HasSubstr(option));
+    }
+}
+
+TEST(Options, HelpShowsEveryOptionInItsGroup) {
+    const std::string help = help_text();
+    EXPECT_EQ(options_in(help), all_options());
+    EXPECT_THAT(help, HasSubstr("Usage: "));
+    std::size_t before = 0;
+    for (const char* group : {"Cutting the image up", "Sharing the work", "Files",
+                              "When something goes wrong", "What is said"}) {
+        SCOPED_TRACE(group);
+        const auto at = help.find(group);
+        ASSERT_NE(at, std::string::npos);
+        EXPECT_GT(at, before);
+        before = at;
+    }
+    EXPECT_LT(help.find("--sections"), help.find("Sharing the work"));
+    EXPECT_GT(help.find("--retries"), help.find("When something goes wrong"));
+}
+
+TEST(Options, ManualPageHasEveryOption) {
+    std::string page = manual_page();
+    page = std::regex_replace(page, std::regex(R"(\\f[BIR])"), " ");
+    page = std::regex_replace(page, std::regex(R"(\\-)"), "-");
+    EXPECT_EQ(options_in(page), all_options());
+    for (const char* heading : {".SH NAME", ".SH SYNOPSIS", ".SH DESCRIPTION", ".SH EXIT STATUS"})
+        EXPECT_THAT(page, HasSubstr(heading));
+}
+
+TEST(Options, ManualPageIsCleanTroff) {
+    if (std::system("command -v groff >/dev/null 2>&1") != 0)
+        GTEST_SKIP() << "there is no groff on the PATH";
+    const ScratchFolder scratch("options-test");
+    std::ofstream(scratch.path() / "mpipov.1") << manual_page();
+    const std::string command = "cd '" + scratch.path().string() +
+                                "' && groff -man -Tutf8 -ww mpipov.1 >shown 2>complaints";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const auto read = [&](const char* name) {
+        std::ifstream in(scratch.path() / name);
+        return std::string{std::istreambuf_iterator<char>(in), {}};
+    };
+    EXPECT_EQ(read("complaints"), "");
+    EXPECT_THAT(read("shown"), HasSubstr("32-pixel block grid"));
+}
+
+}  // namespace
+}  // namespace mpipov
