@@ -1,0 +1,95 @@
+#include "compare_command.h"
+
+#include "compare.h"
+#include "compare_report.h"
+#include "json_output.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+namespace mpipov {
+namespace {
+
+struct CompareOptions {
+    std::string a, b, run, json, map;
+    double peak = 1;
+    bool ssim = false, no_ssim = false;
+};
+
+RunRecord read_run(const std::string& file) {
+    try {
+        return read_run_record(file);
+    } catch (const std::exception& error) {
+        throw Failure(Exit::file, error.what());
+    }
+}
+
+// Asked for (--ssim or --map) it has to work; else its absence is told with its reason.
+std::optional<Ssim> ssim_of(const Comparison& comparison, const CompareOptions& options) {
+    if (options.no_ssim) return {};
+    const bool wanted = options.ssim || !options.map.empty();
+    if (comparison.identical() && !wanted)
+        return Ssim{1.0, {}, "by definition: the images are identical"};
+    try {
+        return compute_ssim(comparison.a, comparison.b, comparison.peak, options.map);
+    } catch (const Failure& failure) {
+        if (wanted || failure.code() == Exit::interrupted) throw;
+        return Ssim{{}, {}, failure.what()};
+    }
+}
+
+Exit run_compare(const CompareOptions& options) {
+    CompareRequest request{options.a, options.b, {}, options.peak};
+    if (!options.run.empty()) request.run = read_run(options.run);
+    Comparison comparison = compare_images(request);
+    comparison.ssim = ssim_of(comparison, options);
+
+    if (options.json != "-") fmt::print("{}", to_table(comparison));
+    if (!options.json.empty()) write_json(options.json, to_json(comparison));
+    if (!options.map.empty() && !comparison.ssim->value)
+        throw Failure(Exit::file, fmt::format("cannot write '{}': there is no SSIM, {}",
+                                              options.map, comparison.ssim->reason));
+    return comparison.identical() ? Exit::ok : Exit::differ;
+}
+
+}  // namespace
+
+Command add_compare_command(CLI::App& program) {
+    auto options = std::make_shared<CompareOptions>();
+    CLI::App* app = program.add_subcommand(
+        "compare",
+        "How far image B is from image A, and where. Stored values are compared: no "
+        "gamma, alpha as in the file.");
+    app->add_option("A", options->a, "the reference image: the serial render")->required();
+    app->add_option("B", options->b, "the image to judge")->required();
+    app->add_option("--run", options->run,
+                    "the record of the run that made B: adds the errors by distance from the "
+                    "nearest seam, by section and by seam")
+        ->type_name("FILE");
+    app->add_option("--json", options->json, "write the results as JSON; - is standard output")
+        ->type_name("FILE");
+    app->add_option("--peak", options->peak,
+                    "peak of PSNR and range of SSIM, where full scale is 1; for float images that "
+                    "are not in [0, 1]")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    CLI::Option* ssim =
+        app->add_flag("--ssim", options->ssim, "compute SSIM even of identical images");
+    CLI::Option* no_ssim = app->add_flag("--no-ssim", options->no_ssim, "do not compute SSIM");
+    CLI::Option* map = app->add_option("--map", options->map,
+                                       "write the SSIM map, one channel, 1 where A and B agree")
+                           ->type_name("IMAGE");
+    no_ssim->excludes(ssim)->excludes(map);
+    app->footer(
+        "Exit code: 0 identical, 1 they differ, 2 usage, 4 a file cannot be read or "
+        "written or the two cannot be compared, 5 interrupted.");
+    return {app, [options] { return run_compare(*options); }};
+}
+
+}  // namespace mpipov

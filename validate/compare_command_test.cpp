@@ -1,0 +1,169 @@
+// The program as a whole: exit codes, streams, files.
+#include "child_process.h"
+#include "image_source.h"
+#include "scratch.h"
+#include "test_image.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+
+namespace mpipov {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using OIIO::TypeDesc;
+using testing::HasSubstr;
+
+class CompareProgram : public testing::Test {
+  protected:
+    void SetUp() override {
+        write_image(path("a.png"), a_, TypeDesc::UINT8);
+        TestImage b = a_;
+        b.at(64, 7, 1) += 5;
+        write_image(path("b.png"), b, TypeDesc::UINT8);
+    }
+
+    int run(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {MPIPOV_VALIDATE_PROGRAM, "compare"});
+        ChildRequest request;
+        request.argv = arguments;
+        request.working_directory = folder_.path();
+        output_.clear();
+        return run_to_end(request, &output_).exit_code.value_or(-1);
+    }
+
+    fs::path path(const char* name) const { return folder_.path() / name; }
+    json read(const char* name) const {
+        std::ifstream in(path(name));
+        return json::parse(in);
+    }
+
+    ScratchFolder folder_{"test"};
+    TestImage a_ = textured(128, 32);
+    std::string output_;
+};
+
+TEST_F(CompareProgram, IdenticalImages) {
+    fs::copy_file(path("a.png"), path("copy.png"));
+    EXPECT_EQ(run({"a.png", "copy.png", "--json", "out.json"}), 0);
+    EXPECT_THAT(output_, HasSubstr("identical"));
+    const json result = read("out.json");
+    EXPECT_TRUE(result["identical"].get<bool>());
+    EXPECT_TRUE(result["psnr"].is_null());
+    EXPECT_EQ(result["ssim"]["value"], 1.0);
+    EXPECT_TRUE(result["largest"].is_null());
+    EXPECT_TRUE(result["differing_box"].is_null());
+}
+
+TEST_F(CompareProgram, DifferentImages) {
+    EXPECT_EQ(run({"a.png", "b.png", "--json", "out.json"}), 1);
+    EXPECT_THAT(output_, HasSubstr("at x 64, y 7, channel G"));
+    const json result = read("out.json");
+    EXPECT_EQ(result["differing"], 1);
+    EXPECT_EQ(result["largest"]["x"], 64);
+    EXPECT_EQ(result["largest"]["y"], 7);
+    EXPECT_EQ(result["largest"]["channel"], "G");
+    EXPECT_EQ(result["largest"]["levels"], 5);
+    EXPECT_DOUBLE_EQ(result["largest"]["full_scale"], 5 / 255.0);
+    const double ssim = result["ssim"]["value"];
+    EXPECT_GT(ssim, 0.99);
+    EXPECT_LT(ssim, 1.0);
+    EXPECT_EQ(result["ssim"]["per_channel"]["R"], 1.0);
+}
+
+TEST_F(CompareProgram, JsonOnStandardOutputStandsAlone) {
+    EXPECT_EQ(run({"a.png", "b.png", "--no-ssim", "--json", "-"}), 1);
+    const json result = json::parse(output_);
+    EXPECT_TRUE(result["ssim"].is_null());
+    EXPECT_TRUE(result["run"].is_null());
+}
+
+TEST_F(CompareProgram, WithTheRecordOfARun) {
+    write_run_record(path("run.json"), run_of(128, 32, Shape::columns, 4));
+    EXPECT_EQ(run({"a.png", "b.png", "--no-ssim", "--run", "run.json", "--json", "out.json"}), 1);
+    EXPECT_THAT(output_, HasSubstr("1 | 2 (x = 64, y 0..31): 1 touching"));
+    EXPECT_THAT(output_, HasSubstr("section 2"));
+    const json found = read("out.json")["run"];
+    EXPECT_EQ(found["sections"][2]["differing"], 1);
+    EXPECT_EQ(found["sections"][1]["differing"], 0);
+    EXPECT_EQ(found["by_distance"][0]["after"]["differing"], 1);
+    EXPECT_EQ(found["by_distance"].size(), 32U);
+    EXPECT_EQ(found["seams"][1]["longest_run"]["length"], 1);
+    EXPECT_TRUE(found["seams"][0]["longest_run"].is_null());
+}
+
+TEST_F(CompareProgram, TheMapIsDarkWhereTheImagesDiffer) {
+    EXPECT_EQ(run({"a.png", "b.png", "--map", "map.exr"}), 1) << output_;
+    ImageSource source(path("map.exr"));
+    EXPECT_EQ(source.format().width, 128);
+    EXPECT_EQ(source.format().channel_count(), 1);
+    ImageBand band;
+    ASSERT_TRUE(source.next_band(32, band));
+    // One pixel differs: so does the map within the window's radius of it, and only there. (Near
+    // the window's corners the weights are below the map's precision.)
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 128; ++x) {
+            const int distance = std::max(std::abs(x - 64), std::abs(y - 7));
+            const double value = band.row(y)[static_cast<std::size_t>(x)];
+            if (distance <= 2) {
+                EXPECT_LT(value, 1) << x << ',' << y;
+            } else if (distance > 5) {
+                EXPECT_EQ(value, 1) << x << ',' << y;
+            }
+        }
+}
+
+TEST_F(CompareProgram, SsimOfASmallImageHasAReason) {
+    write_image(path("small.png"), textured(10, 40), TypeDesc::UINT8);
+    TestImage other = textured(10, 40);
+    other.at(1, 1, 1) += 1;
+    write_image(path("other.png"), other, TypeDesc::UINT8);
+    EXPECT_EQ(run({"small.png", "other.png", "--json", "out.json"}), 1);
+    const json result = read("out.json");
+    EXPECT_TRUE(result["ssim"]["value"].is_null());
+    EXPECT_THAT(result["ssim"]["reason"].get<std::string>(), HasSubstr("11 x 11"));
+    EXPECT_EQ(run({"small.png", "other.png", "--map", "map.png"}), 4);
+    EXPECT_THAT(output_, HasSubstr("map.png"));
+    EXPECT_FALSE(fs::exists(path("map.png")));
+}
+
+TEST_F(CompareProgram, SsimOfFloatsWithNaN) {
+    TestImage b = a_;
+    b.at(100, 20, 0) = std::numeric_limits<double>::quiet_NaN();
+    write_image(path("a.exr"), a_, TypeDesc::HALF);
+    write_image(path("b.exr"), b, TypeDesc::HALF);
+    EXPECT_EQ(run({"a.exr", "b.exr", "--json", "out.json"}), 1);
+    const json result = read("out.json");
+    EXPECT_EQ(result["nonfinite"]["first"][0]["x"], 100);
+    EXPECT_EQ(result["nonfinite"]["first"][0]["value"], "nan");
+    EXPECT_TRUE(result["ssim"]["value"].is_null());
+    EXPECT_TRUE(result["rms"]["levels"].is_null());
+}
+
+TEST_F(CompareProgram, UsageErrors) {
+    EXPECT_EQ(run({"a.png"}), 2);
+    EXPECT_THAT(output_, HasSubstr("mpipov-validate: "));
+    EXPECT_EQ(run({"a.png", "b.png", "--nonsense"}), 2);
+    EXPECT_EQ(run({"a.png", "b.png", "--ssim", "--no-ssim"}), 2);
+    EXPECT_EQ(run({"a.png", "b.png", "--no-ssim", "--map", "map.png"}), 2);
+    EXPECT_EQ(run({"a.png", "b.png", "--peak", "0"}), 2);
+    EXPECT_EQ(run({"--help"}), 0);
+}
+
+TEST_F(CompareProgram, FileErrors) {
+    EXPECT_EQ(run({"a.png", "none.png"}), 4);
+    EXPECT_THAT(output_, HasSubstr("mpipov-validate: cannot read 'none.png': no such file"));
+    EXPECT_EQ(run({"a.png", "b.png", "--run", "none.json"}), 4);
+    EXPECT_THAT(output_, HasSubstr("none.json"));
+    EXPECT_EQ(run({"a.png", "b.png", "--no-ssim", "--json", "no/out.json"}), 4);
+    EXPECT_THAT(output_, HasSubstr("no/out.json"));
+}
+
+}  // namespace
+}  // namespace mpipov

@@ -1,0 +1,104 @@
+"""ssim.py against scikit-image called directly and against a case computed by hand."""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+from skimage.metrics import structural_similarity
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import ssim  # noqa: E402
+
+
+def reference(a, b, data_range):
+    return structural_similarity(a, b, data_range=data_range, channel_axis=-1,
+                                 gaussian_weights=True, sigma=1.5, use_sample_covariance=False)
+
+
+def noisy_pair(height=70, width=41, channels=3):
+    random = np.random.default_rng(1999)
+    a = random.random((height, width, channels))
+    b = np.clip(a + random.normal(0, 0.1, a.shape), 0, 1)
+    return a, b
+
+
+class Ssim(unittest.TestCase):
+    def test_is_scikit_images_in_bands_of_any_size(self):
+        a, b = noisy_pair()
+        expected = reference(a, b, 1.0)
+        for rows in (11, 16, 17, 30, 64, 70, 1000):
+            found = ssim.ssim(a, b, 1.0, rows=rows)
+            self.assertAlmostEqual(found["ssim"], expected, places=12, msg=f"{rows} rows")
+
+    def test_per_channel(self):
+        a, b = noisy_pair()
+        b[:, :, 1] = a[:, :, 1]
+        found = ssim.ssim(a, b, 1.0)["per_channel"]
+        self.assertAlmostEqual(found[1], 1.0, places=12)
+        for channel in (0, 2):
+            one = np.s_[:, :, channel:channel + 1]
+            self.assertAlmostEqual(found[channel], reference(a[one], b[one], 1.0), places=12)
+            self.assertLess(found[channel], 0.99)
+
+    def test_alpha_is_told_but_not_averaged_in(self):
+        a, b = noisy_pair(channels=4)
+        b[:, :, 3] = a[:, :, 3]
+        found = ssim.ssim(a, b, 1.0, colour=[0, 1, 2])
+        self.assertAlmostEqual(found["ssim"], reference(a[:, :, :3], b[:, :, :3], 1.0), places=12)
+        self.assertAlmostEqual(found["per_channel"][3], 1.0, places=12)
+
+    def test_constant_images_by_hand(self):
+        # Without variance the formula is (2 p q + C1) / (p^2 + q^2 + C1), C1 = (0.01 L)^2.
+        p, q = 0.25, 0.75
+        c1 = 0.01 ** 2
+        expected = (2 * p * q + c1) / (p * p + q * q + c1)
+        found = ssim.ssim(np.full((20, 30, 1), p), np.full((20, 30, 1), q), 1.0)
+        self.assertAlmostEqual(found["ssim"], expected, places=9)
+
+    def test_too_small_or_not_finite_has_no_value(self):
+        a, b = noisy_pair(10, 41)
+        self.assertIsNone(ssim.ssim(a, b, 1.0)["ssim"])
+        a, b = noisy_pair()
+        b[3, 4, 0] = np.nan
+        found = ssim.ssim(a, b, 1.0)
+        self.assertIsNone(found["ssim"])
+        self.assertIn("NaN", found["reason"])
+
+    def test_smallest_image_that_has_a_value(self):
+        a, b = noisy_pair(11, 11)
+        self.assertAlmostEqual(ssim.ssim(a, b, 1.0)["ssim"], reference(a, b, 1.0), places=12)
+
+    def run_program(self, a, b, request):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            a.tofile(folder / "a.raw")
+            b.tofile(folder / "b.raw")
+            height, width, channels = a.shape
+            request |= {"height": height, "width": width, "channels": channels,
+                        "a": "a.raw", "b": "b.raw", "colour": list(range(channels))}
+            (folder / "request.json").write_text(json.dumps(request))
+            script = pathlib.Path(ssim.__file__)
+            output = subprocess.run(
+                [sys.executable, script, folder / "request.json", "--map", folder / "map.raw"],
+                check=True, capture_output=True, text=True).stdout
+            values = np.fromfile(folder / "map.raw", dtype=np.float32).reshape(height, width)
+            return json.loads(output), values
+
+    def test_the_program_with_16_bit_pixels(self):
+        a, b = ((image * 65535).astype(np.uint16) for image in noisy_pair(300, 40))
+        found, values = self.run_program(a, b, {"type": "u2", "full_scale": 65535,
+                                                "data_range": 1.0})
+        expected, map_expected = structural_similarity(
+            a / 65535, b / 65535, data_range=1.0, channel_axis=-1, gaussian_weights=True,
+            sigma=1.5, use_sample_covariance=False, full=True)
+        self.assertAlmostEqual(found["ssim"], expected, places=12)
+        np.testing.assert_allclose(values, map_expected.mean(axis=2), atol=1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main()
