@@ -1,11 +1,11 @@
 #include "child_process.h"
 
+#include "bounded_text.h"
+#include "guarded_spawn.h"
+
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/resource.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,8 +16,6 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
-#include <span>
 #include <stdexcept>
 #include <system_error>
 
@@ -32,131 +30,6 @@ constexpr double idle_seconds_without_pidfd = 0.01;
 constexpr double sample_seconds = 0.05;  // between two looks at the child's memory
 constexpr std::size_t drain_limit = 1
                                     << 20;  // bytes one poll() takes: a chatterbox must not hold us
-
-class Fd {
-  public:
-    explicit Fd(int fd = -1) : fd_(fd) {}
-    Fd(Fd&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-    Fd& operator=(Fd&& other) noexcept {
-        std::swap(fd_, other.fd_);
-        return *this;
-    }
-    ~Fd() { reset(); }
-
-    int get() const { return fd_; }
-    void reset() {
-        if (fd_ >= 0) ::close(fd_);
-        fd_ = -1;
-    }
-
-  private:
-    int fd_;
-};
-
-void check(int error, const std::string& what) {
-    if (error != 0) throw std::system_error(error, std::generic_category(), what);
-}
-
-class FileActions {
-  public:
-    explicit FileActions(const std::string& what) {
-        check(posix_spawn_file_actions_init(&it_), what);
-    }
-    FileActions(const FileActions&) = delete;
-    FileActions& operator=(const FileActions&) = delete;
-    ~FileActions() { posix_spawn_file_actions_destroy(&it_); }
-    posix_spawn_file_actions_t* get() { return &it_; }
-
-  private:
-    posix_spawn_file_actions_t it_{};
-};
-
-class Attributes {
-  public:
-    explicit Attributes(const std::string& what) { check(posix_spawnattr_init(&it_), what); }
-    Attributes(const Attributes&) = delete;
-    Attributes& operator=(const Attributes&) = delete;
-    ~Attributes() { posix_spawnattr_destroy(&it_); }
-    posix_spawnattr_t* get() { return &it_; }
-
-  private:
-    posix_spawnattr_t it_{};
-};
-
-// Keeps the first and the last half of what is appended, once that is more than the limit.
-class BoundedText {
-  public:
-    explicit BoundedText(std::size_t limit)
-        : limit_(limit),
-          marker_(
-              fmt::format("\n[mpipov: more than {} bytes of output, middle left out]\n", limit)) {}
-
-    void append(std::string_view more) {
-        text_ += more;
-        if (!cut_ && text_.size() > limit_) {
-            text_.insert(limit_ / 2, marker_);
-            cut_ = true;
-        }
-        // Moving the tail only now and then keeps the cost linear.
-        if (cut_ && text_.size() > 2 * limit_ + marker_.size()) trim();
-    }
-
-    std::string_view view() {
-        if (cut_) trim();
-        return text_;
-    }
-
-  private:
-    void trim() {
-        const std::size_t most = limit_ + marker_.size();
-        if (text_.size() > most) text_.erase(limit_ / 2 + marker_.size(), text_.size() - most);
-    }
-
-    std::size_t limit_;
-    std::string marker_, text_;
-    bool cut_ = false;
-};
-
-std::vector<std::string> merged_environment(const ChildRequest& request) {
-    std::vector<std::string> result;
-    for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
-        const std::string_view text = *entry;
-        const std::string_view name = text.substr(0, text.find('='));
-        const bool replaced = std::any_of(request.environment.begin(), request.environment.end(),
-                                          [&](const auto& added) { return added.first == name; });
-        if (!replaced) result.emplace_back(text);
-    }
-    for (const auto& [name, value] : request.environment) {
-        if (name.empty() || name.find('=') != std::string::npos) {
-            throw std::invalid_argument(
-                fmt::format("cannot start '{}': '{}' is no name of an environment variable",
-                            request.argv.front(), name));
-        }
-        result.push_back(fmt::format("{}={}", name, value));
-    }
-    return result;
-}
-
-std::vector<char*> pointers(std::vector<std::string>& strings) {
-    std::vector<char*> result;
-    result.reserve(strings.size() + 1);
-    for (std::string& text : strings) result.push_back(text.data());
-    result.push_back(nullptr);
-    return result;
-}
-
-std::vector<std::string> guarded_argv(const std::filesystem::path& guard,
-                                      const ChildRequest& request) {
-    std::vector<std::string> argv{guard.string(), std::to_string(::getpid()),
-                                  std::to_string(request.memory_limit_bytes.value_or(0)),
-                                  std::to_string(request.file_size_limit_bytes.value_or(0)), "--"};
-    argv.insert(argv.end(), request.argv.begin(), request.argv.end());
-    std::string& program = argv[5];
-    if (!request.working_directory.empty() && program.find('/') != std::string::npos) {
-        program = std::filesystem::absolute(program).string();
-    }
-    return argv;
-}
 
 double seconds(const timeval& time) {
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
@@ -246,56 +119,12 @@ ChildProcess::State::~State() {
 }
 
 void ChildProcess::State::spawn(const ChildRequest& request) {
-    const std::string what = fmt::format("cannot start '{}'", request.argv.front());
-    const std::filesystem::path guard = find_guard();
-    std::error_code ignored;
-    const std::filesystem::path& folder = request.working_directory;
-    if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
-        throw std::runtime_error(fmt::format("{}: its working directory '{}' is not a directory",
-                                             what, folder.string()));
-    }
-
-    std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) check(errno, what + ": no pipe");
-    pipe_ = Fd(ends[0]);
-    const Fd writer(ends[1]);
-    if (::fcntl(pipe_.get(), F_SETFL, O_NONBLOCK) != 0) check(errno, what + ": pipe");
-
-    FileActions actions(what);
-    auto* const a = actions.get();
-    check(posix_spawn_file_actions_addopen(a, STDIN_FILENO, "/dev/null", O_RDONLY, 0), what);
-    check(posix_spawn_file_actions_adddup2(a, writer.get(), STDOUT_FILENO), what);
-    check(posix_spawn_file_actions_adddup2(a, writer.get(), STDERR_FILENO), what);
-    // Libraries open descriptors without O_CLOEXEC, and mpiexec hands its own down.
-    check(posix_spawn_file_actions_addclosefrom_np(a, STDERR_FILENO + 1), what);
-    if (!folder.empty()) check(posix_spawn_file_actions_addchdir_np(a, folder.c_str()), what);
-
-    Attributes attributes(what);
-    sigset_t none{};
-    sigset_t all{};
-    sigemptyset(&none);
-    sigfillset(&all);
-    check(
-        posix_spawnattr_setflags(attributes.get(), POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK |
-                                                       POSIX_SPAWN_SETSIGDEF),
-        what);
-    check(posix_spawnattr_setpgroup(attributes.get(), 0), what);
-    check(posix_spawnattr_setsigmask(attributes.get(), &none), what);
-    check(posix_spawnattr_setsigdefault(attributes.get(), &all), what);
-
-    std::vector<std::string> arguments = guarded_argv(guard, request);
-    std::vector<std::string> environment = merged_environment(request);
-    const std::vector<char*> argv = pointers(arguments);
-    const std::vector<char*> envp = pointers(environment);
     own_peak_ = peak_memory("self");
     start_ = Clock::now();
-    pid_t pid = -1;
-    check(::posix_spawn(&pid, guard.c_str(), a, attributes.get(), argv.data(), envp.data()),
-          fmt::format("{} through '{}'", what, guard.string()));
-    pid_ = pid;
-    // glibc 2.36 declares pidfd_open() without extern "C". Where a kernel has no pidfd,
-    // wait_milliseconds() makes up for it.
-    pidfd_ = Fd(static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0)));
+    Spawned spawned = spawn_guarded(request);
+    pid_ = spawned.pid;
+    pipe_ = std::move(spawned.output);
+    pidfd_ = std::move(spawned.exit);
 }
 
 void ChildProcess::State::drain() {
@@ -463,25 +292,6 @@ ChildResult run_to_end(const ChildRequest& request, std::string* output) {
     }
     if (output != nullptr) *output = child.output();
     return child.result();
-}
-
-std::filesystem::path find_guard() {
-    namespace fs = std::filesystem;
-    if (const char* named = std::getenv("MPIPOV_GUARD"); named != nullptr && *named != '\0') {
-        if (::access(named, X_OK) == 0) return fs::absolute(named);
-        throw std::runtime_error(fmt::format(
-            "MPIPOV_GUARD names '{}', which is no executable file: correct or unset it", named));
-    }
-    const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
-    const std::array<fs::path, 2> places{
-        here / "mpipov-guard", here.parent_path() / "libexec" / "mpipov" / "mpipov-guard"};
-    for (const fs::path& place : places) {
-        if (::access(place.c_str(), X_OK) == 0) return place;
-    }
-    throw std::runtime_error(fmt::format(
-        "cannot find mpipov-guard, neither as '{}' nor as '{}': build or install it with mpipov, "
-        "or let MPIPOV_GUARD name it",
-        places[0].string(), places[1].string()));
 }
 
 }  // namespace mpipov
