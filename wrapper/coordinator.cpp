@@ -334,7 +334,9 @@ double Coordinator::fraction() const {
 
 void Coordinator::fill(RunRecord& record) const {
     record.sections.clear();
-    for (const Progress& progress : sections_) record.sections.push_back(progress.record);
+    record.repairs.clear();
+    for (const Progress& progress : sections_)
+        (progress.seam < 0 ? record.sections : record.repairs).push_back(progress.record);
     record.seams = seams_;
     record.ranks = setup_.ranks;
     record.totals.launches += totals_.launches;

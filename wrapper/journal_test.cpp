@@ -216,10 +216,10 @@ TEST_F(JournalTest, NothingToGoOnFrom) {
 
 TEST_F(JournalTest, ADamagedJournalIsNamed) {
     leave_three();
-    for (const char* text : {"", "{", "[]", "3", "{}", "{\"format\": 5}",
-                             "{\"format\": \"mpipov-journal\", \"version\": 1}",
-                             "{\"format\": \"mpipov-journal\", \"version\": 2, \"identity\": {}, "
-                             "\"plan\": {}}"}) {
+    for (const char* text :
+         {"", "{", "[]", "3", "{}", R"({"format": 5})",
+          R"({"format": "mpipov-journal", "version": 1})",
+          R"({"format": "mpipov-journal", "version": 2, "identity": {}, "plan": {}})"}) {
         SCOPED_TRACE(text);
         write(folder() / "journal.json", text);
         expect_failure(Exit::file, "journal.json", [&] { Journal::open(folder(), identity); });

@@ -58,6 +58,17 @@ RankRecord about_this_rank(const Options& options, int rank) {
             0};
 }
 
+void send_refusal(Transport& transport, const RankRecord& self, Exit code, const std::string& why) {
+    constexpr double patience_seconds = 10;
+    transport.send({MessageKind::refused,
+                    0,
+                    {{"host", self.host}, {"why", why}, {"code", static_cast<int>(code)}},
+                    {}});
+    // MPI must not be left with an unread message, and rank 0 will send one more.
+    while (const auto message = wait_for_message(transport, patience_seconds))
+        if (message->kind == MessageKind::stop) return;
+}
+
 // What every rank but 0 does.
 void serve(const Options& options, const RankRecord& self, Transport& transport, Worker& worker) {
     try {
@@ -68,12 +79,9 @@ void serve(const Options& options, const RankRecord& self, Transport& transport,
                         {}});
         run_event_loop({transport, worker});
     } catch (const Failure& failure) {
-        transport.send({MessageKind::refused,
-                        0,
-                        {{"host", self.host},
-                         {"why", failure.what()},
-                         {"code", static_cast<int>(failure.code())}},
-                        {}});
+        send_refusal(transport, self, failure.code(), failure.what());
+    } catch (const std::exception& error) {
+        send_refusal(transport, self, Exit::interrupted, error.what());
     }
 }
 
@@ -143,7 +151,7 @@ int main(int argc, char** argv) {
         code = static_cast<int>(failure.code());
     } catch (const std::exception& error) {
         fmt::print(stderr, "mpipov: rank {}: {}\n", rank, error.what());
-        MPI_Abort(MPI_COMM_WORLD, static_cast<int>(Exit::interrupted));
+        code = static_cast<int>(Exit::interrupted);
     }
     MPI_Finalize();
     return code;

@@ -22,6 +22,7 @@ enum class MessageKind : unsigned char {
     bye,       // worker: its last message
 };
 
+// NOLINTNEXTLINE(bugprone-exception-escape): moving JSON only asserts
 struct Message {
     MessageKind kind = MessageKind::stop;
     int peer = -1;  // to whom, or from whom

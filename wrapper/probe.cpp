@@ -247,7 +247,18 @@ int block_size(const std::filesystem::path& settings_file) {
 
 }  // namespace
 
-Probe run_probe(const ProbeRequest& request) {
+namespace {
+
+PixelLayout layout_of_sample(const std::filesystem::path& sample) {
+    try {
+        return read_layout(sample);
+    } catch (const std::runtime_error& error) {  // POV-Ray damages 8-bit gray PPM, for one
+        throw Failure(Exit::usage,
+                      fmt::format("POV-Ray writes an image that cannot be read: {}", error.what()));
+    }
+}
+
+Probe probe_once(const ProbeRequest& request) {
     ProbeLaunches launches(request);
     launches.wait();
 
@@ -273,7 +284,7 @@ Probe run_probe(const ProbeRequest& request) {
     probe.style.jpeg_quality = image->jpeg_quality;
     probe.style.rle = image->rle;
 
-    const PixelLayout layout = read_layout(probe.style.sample);
+    const PixelLayout layout = layout_of_sample(probe.style.sample);
     result.probe_pixels = static_cast<long long>(layout.width) * layout.height;
     result.stored = {image->width, image->height, layout.channels, probe.style.type,
                      std::string(to_string(layout.depth))};
@@ -288,6 +299,27 @@ Probe run_probe(const ProbeRequest& request) {
     probe.cpu_seconds = launches.cpu_seconds();
     probe.launches = launches.count();
     return probe;
+}
+
+// What POV-Ray says when a machine is so busy that its own threads do not come up in time.
+bool was_overloaded(const Failure& failure) {
+    return std::string_view(failure.what()).find("waiting for worker thread startup") !=
+           std::string_view::npos;
+}
+
+}  // namespace
+
+Probe run_probe(const ProbeRequest& request) {
+    constexpr int attempts = 3;
+    for (int attempt = 1;; ++attempt) {
+        ProbeRequest one = request;
+        one.scratch = request.scratch / fmt::format("{}", attempt);
+        try {
+            return probe_once(one);
+        } catch (const Failure& failure) {
+            if (attempt == attempts || !was_overloaded(failure)) throw;
+        }
+    }
 }
 
 std::string povray_version(const std::string& povray) {

@@ -157,7 +157,8 @@ PlanRecord plan_from_json(const json& j) {
 }
 
 json to_json(const RunRecord& record) {
-    json ranks = json::array(), sections = json::array(), seams = json::array();
+    json ranks = json::array(), sections = json::array(), seams = json::array(),
+         repairs = json::array();
     for (const RankRecord& r : record.ranks)
         ranks.push_back({{"rank", r.rank},
                          {"host", r.host},
@@ -166,6 +167,7 @@ json to_json(const RunRecord& record) {
                          {"busy_seconds", r.busy_seconds}});
     for (const SectionRecord& s : record.sections) sections.push_back(section_json(s));
     for (const SeamRecord& s : record.seams) seams.push_back(seam_json(s));
+    for (const SectionRecord& s : record.repairs) repairs.push_back(section_json(s));
     return {{"format", "mpipov-run"},
             {"version", format_version},
             {"complete", record.complete},
@@ -177,6 +179,7 @@ json to_json(const RunRecord& record) {
             {"ranks", ranks},
             {"sections", sections},
             {"seams", seams},
+            {"repairs", repairs},
             {"totals",
              {{"wall_seconds", record.totals.wall_seconds},
               {"cpu_seconds", record.totals.cpu_seconds},
@@ -205,6 +208,7 @@ RunRecord run_from_json(const json& j) {
                                     r.at("busy_seconds").get<double>()});
         for (const json& s : j.at("sections")) record.sections.push_back(section_from(s));
         for (const json& s : j.at("seams")) record.seams.push_back(seam_from(s));
+        for (const json& s : j.at("repairs")) record.repairs.push_back(section_from(s));
         const json& totals = j.at("totals");
         record.totals = {totals.at("wall_seconds").get<double>(),
                          totals.at("cpu_seconds").get<double>(),

@@ -88,6 +88,7 @@ struct RunRecord {
     std::vector<RankRecord> ranks;
     std::vector<SectionRecord> sections;
     std::vector<SeamRecord> seams;
+    std::vector<SectionRecord> repairs;  // seams that were rendered again, over the sections
     Totals totals;
     std::vector<std::string> warnings;  // POV-Ray's own, each once
 };

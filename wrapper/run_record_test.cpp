@@ -28,6 +28,7 @@ RunRecord sample_record() {
     r.ranks = {{0, "n1", 2, 2, 3.5}};
     r.sections = {{{0, {0, 0, 32, 48}, {0, 0, 34, 48}}, 0, "n1", 0.5, 1.5, 1.0, 0.9, 2, false}};
     r.seams = {{{0, 1, true, 32, 0, 48}, true, 3, 7.0, 4}};
+    r.repairs = {{{2, {31, 0, 33, 48}, {27, 0, 37, 48}}, 1, "n2", 1.5, 2.5, 1.0, 0.9, 1, false}};
     r.totals = {2.0, 3.0, 0.01, 5, 1};
     r.warnings = {"Parse Warning: x"};
     return r;

@@ -23,8 +23,8 @@ ProbeResult scene(int width, int height, double cpu_seconds) {
     probe.image.width = width;
     probe.image.height = height;
     probe.image.region = {0, 0, width, height};
-    probe.probe_pixels = 32 * 24;
-    probe.report.trace_cpu = cpu_seconds * 32 * 24 / (1.0 * width * height);
+    probe.probe_pixels = 768;
+    probe.report.trace_cpu = cpu_seconds * 768 / (1.0 * width * height);
     probe.report.parse_cpu = 0.01;
     probe.stored = {width, height, 3, "png", "uint8"};
     return probe;
