@@ -19,6 +19,7 @@ std::vector<int> ids_of(const Partition& partition) {
 
 std::vector<int> lanes_of(const std::vector<RankRecord>& ranks) {
     std::vector<int> lanes;
+    lanes.reserve(ranks.size());
     for (const RankRecord& rank : ranks) lanes.push_back(rank.slots);
     return lanes;
 }

@@ -3,7 +3,6 @@
 #include "failure.h"
 #include "scratch.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,9 +11,6 @@
 
 namespace mpipov {
 namespace {
-
-using testing::Each;
-using testing::IsEmpty;
 
 // What stands for a renderer whose antialiasing lacks a neighbour: pixels nearer than `reach` to an
 // edge of what is rendered (and not of the region) are wrong, by another value in every launch.
@@ -134,8 +130,8 @@ TEST(CoordinatorSeams, AreTheSameWhateverTheOrder) {
             rig.run();
             results.insert(rig.canvas().sha1());
             std::vector<int> order;
-            for (const SectionRecord& section : rig.record().sections)
-                order.push_back(section.section.keep.x0);
+            for (const SectionRecord& repair : rig.record().repairs)
+                order.push_back(repair.section.keep.x0);
             orders.insert(order);
         }
         EXPECT_EQ(results.size(), 1u);

@@ -152,7 +152,7 @@ TEST_F(EventLoopTest, ASignalEndsTheLaunches) {
     int steps = 0;
     try {
         run(setup(1, 2), [&] {
-            if (++steps == 5) pthread_kill(pthread_self(), SIGTERM);
+            if (++steps == 5) std::raise(SIGTERM);
         });
         ADD_FAILURE() << "it went on";
     } catch (const Failure& failure) {

@@ -55,7 +55,9 @@ MpiTransport::MpiTransport() : state_(std::make_unique<State>()) {
 }
 
 MpiTransport::~MpiTransport() {
-    for (State::Sending& sending : state_->sending) MPI_Wait(&sending.request, MPI_STATUS_IGNORE);
+    // The analyzer sees one function at a time: the request is begun in send().
+    for (State::Sending& sending : state_->sending)
+        MPI_Wait(&sending.request, MPI_STATUS_IGNORE);  // NOLINT(clang-analyzer-optin.mpi*)
     MPI_Comm_free(&state_->comm);
 }
 
@@ -79,6 +81,7 @@ void MpiTransport::send(Message message) {
     if (bytes.size() > max_message_bytes) refuse_length();
     State::Sending& sending = state_->sending.emplace_back();
     sending.bytes = std::move(bytes);
+    // NOLINTNEXTLINE(clang-analyzer-optin.mpi*): waited for in drop_sent() and at the end
     check(MPI_Isend(sending.bytes.data(), static_cast<int>(sending.bytes.size()), MPI_BYTE,
                     message.peer, message_tag, state_->comm, &sending.request),
           "MPI_Isend");

@@ -24,7 +24,6 @@ using testing::ElementsAre;
 using testing::Ge;
 using testing::HasSubstr;
 using testing::Le;
-using testing::Not;
 
 constexpr ImageSize image{64, 48};
 // Several bands.
