@@ -1,11 +1,11 @@
 #include "child_process.h"
 
 #include "bounded_text.h"
+#include "cpu_time.h"
 #include "guarded_spawn.h"
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -30,10 +30,6 @@ constexpr double idle_seconds_without_pidfd = 0.01;
 constexpr double sample_seconds = 0.05;  // between two looks at the child's memory
 constexpr std::size_t drain_limit = 1
                                     << 20;  // bytes one poll() takes: a chatterbox must not hold us
-
-double seconds(const timeval& time) {
-    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
-}
 
 // The largest resident set since exec, bytes; 0 where /proc does not tell (a zombie has none).
 std::uint64_t peak_memory(const std::string& process) {
@@ -170,7 +166,7 @@ void ChildProcess::State::reap() {
     if (reaped == pid_) {
         if (WIFEXITED(status)) result_.exit_code = WEXITSTATUS(status);
         if (WIFSIGNALED(status)) result_.signal = WTERMSIG(status);
-        result_.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+        result_.cpu_seconds = mpipov::cpu_seconds(usage);
         // Both counters are approximate to some pages a core, hence the quarter.
         const std::uint64_t peak = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
         if (peak > own_peak_ + own_peak_ / 4) result_.max_rss_bytes = std::max(peak, sampled_peak_);

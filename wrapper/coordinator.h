@@ -48,7 +48,6 @@ class Coordinator {
     // Once finished: puts the seams that were rendered again into the canvas, in an order that does
     // not depend on which rank was first.
     void place_repairs();
-    void stop_workers();
 
     // Of the region's pixels, those rendered so far; sections under way count by their progress.
     // From 0 to 1, and never less than before: a section that failed or a seam that is rendered

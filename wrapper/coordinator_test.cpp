@@ -93,14 +93,6 @@ TEST(Coordinator, FillsEveryRankBeforeAnyGetsASecondLaunch) {
     for (const FakeWorker& worker : rig.workers()) EXPECT_EQ(worker.assignments().size(), 1u);
 }
 
-TEST(Coordinator, StopsTheWorkers) {
-    Rig rig(columns(2, 3));
-    rig.run();
-    rig.coordinator().stop_workers();
-    while (rig.ranks().waiting() > 0) rig.step();
-    for (const FakeWorker& worker : rig.workers()) EXPECT_TRUE(worker.stopped());
-}
-
 TEST(Coordinator, GivesAFailedSectionToAnotherWorker) {
     for (const Policy policy : {Policy::static_, Policy::dynamic}) {
         RigSetup setup = columns(12, 3);

@@ -63,6 +63,11 @@ void run_event_loop(const EventLoop& loop) {
     }
 }
 
+void send_stops(Transport& transport) {
+    for (int rank = 1; rank < transport.size(); ++rank)
+        transport.send({MessageKind::stop, rank, nlohmann::json::object(), {}});
+}
+
 std::optional<Message> wait_for_message(Transport& transport, double seconds) {
     const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     while (std::chrono::steady_clock::now() < until) {

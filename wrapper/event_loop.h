@@ -22,6 +22,9 @@ struct EventLoop {
 // throws.
 void run_event_loop(const EventLoop& loop);
 
+// Tells every other rank to stop. They end their launches and leave their loops.
+void send_stops(Transport& transport);
+
 // Waits for one message of a worker that is starting (hello or refused), at most `seconds`.
 std::optional<Message> wait_for_message(Transport& transport, double seconds);
 

@@ -1,13 +1,13 @@
 #include "event_loop.h"
 
 #include "coordinator_test_support.h"
+#include "cpu_time.h"
 #include "failure.h"
 #include "fake_povray_test_support.h"
 #include "interrupt.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <chrono>
 #include <csignal>
@@ -29,15 +29,6 @@ constexpr bool sanitized = true;
 #else
 constexpr bool sanitized = false;
 #endif
-
-double thread_cpu_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_THREAD, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -77,12 +68,12 @@ class EventLoopTest : public FakePovrayTest {
             run_event_loop({ranks.at(0), worker, &coordinator, every_step});
         } catch (...) {
             worker.stop();
-            coordinator.stop_workers();
+            send_stops(ranks.at(0));
             throw;
         }
-        coordinator.stop_workers();
+        send_stops(ranks.at(0));
         threads.clear();
-        EXPECT_EQ(ranks.waiting(), 1u) << "rank 0's own stop, which it did not wait for";
+        EXPECT_EQ(ranks.waiting(), 0u);
         EXPECT_TRUE(holds_known_picture(canvas, frame));
         RunRecord record;
         coordinator.fill(record);
@@ -202,7 +193,7 @@ TEST_F(EventLoopTest, SleepsWhileItWaits) {
             while (ranks.at(1).try_receive()) continue;
             if (began == 0 && ranks.waiting() == 0) {
                 began = now();
-                cpu = thread_cpu_seconds();
+                cpu = own_cpu_seconds(RUSAGE_THREAD);
                 wakes = 0;
             }
             ++wakes;
@@ -210,7 +201,7 @@ TEST_F(EventLoopTest, SleepsWhileItWaits) {
         };
         EXPECT_THROW(run_event_loop({ranks.at(0), worker, &coordinator, every_step}),
                      std::runtime_error);
-        const double busy = (thread_cpu_seconds() - cpu) / watched_seconds;
+        const double busy = (own_cpu_seconds(RUSAGE_THREAD) - cpu) / watched_seconds;
         const char* when = launched ? "with_a_launch" : "without_a_launch";
         EXPECT_LT(wakes / watched_seconds, 50) << when;
         if (!sanitized) {

@@ -1,6 +1,7 @@
 #include "render_job.h"
 
 #include "coordinator.h"
+#include "cpu_time.h"
 #include "event_loop.h"
 #include "failure.h"
 #include "output_place.h"
@@ -11,7 +12,6 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -35,15 +35,6 @@ class RunClock {
   private:
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
-
-double own_cpu_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 std::vector<RankRecord> meet_ranks(const JobSetup& setup, Transport& transport,
                                    const std::string& povray) {
@@ -226,7 +217,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     record.complete = true;
     record.pixel_sha1 = canvas.sha1();
     record.totals.wall_seconds = clock.seconds();
-    record.totals.coordinator_cpu_seconds = own_cpu_seconds();
+    record.totals.coordinator_cpu_seconds = own_cpu_seconds(RUSAGE_SELF);
     try {
         write_run_record(place.record(), record);
     } catch (const std::runtime_error& error) {

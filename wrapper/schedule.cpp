@@ -62,6 +62,9 @@ void Schedule::finished(int section) {
     if (entry.done) return;
     entry.done = true;
     --unfinished_;
+    // An earlier run may have finished what nobody was given yet.
+    std::erase(shared_, section);
+    for (std::deque<int>& queue : owned_) std::erase(queue, section);
 }
 
 void Schedule::failed(int section, int worker) {

@@ -25,6 +25,7 @@ class Schedule {
     // The section that `worker` is to start now, if there is one for it; it is then under way.
     std::optional<int> next(int worker);
 
+    // Whether it was handed out or not: it never is again.
     void finished(int section);
 
     // Gives the section back. It goes to another worker next where there is one that has not

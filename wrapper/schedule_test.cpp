@@ -76,6 +76,18 @@ TEST(Schedule, CountsDownToTheEndAndTakesMore) {
     EXPECT_THROW(s.add(7), std::invalid_argument);
 }
 
+TEST(Schedule, NeverHandsOutWhatWasFinishedBefore) {
+    for (const Policy policy : {Policy::static_, Policy::dynamic}) {
+        Schedule s(policy, ids(4), {1, 1});
+        s.finished(0);
+        s.finished(2);
+        std::set<int> taken;
+        for (int worker : {0, 1, 0, 1})
+            if (const auto section = s.next(worker)) taken.insert(*section);
+        EXPECT_EQ(taken, (std::set<int>{1, 3}));
+    }
+}
+
 TEST(Schedule, RefusesToScheduleForNobody) {
     EXPECT_THROW(Schedule(Policy::dynamic, ids(2), {0, 0}), std::invalid_argument);
 }
