@@ -9,7 +9,7 @@
 #include "scratch.h"
 #include "slots.h"
 
-#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/oiioversion.h>
 #include <fmt/format.h>
 #include <malloc.h>
 #include <mpi.h>
@@ -69,9 +69,11 @@ void send_refusal(Transport& transport, const RankRecord& self, Exit code, const
         if (message->kind == MessageKind::stop) return;
 }
 
-// What every rank but 0 does.
-void serve(const Options& options, const RankRecord& self, Transport& transport, Worker& worker) {
+// What every rank but 0 does. Whatever stands in its way, rank 0 hears of it.
+void serve(const Options& options, const RankRecord& self, Transport& transport) {
     try {
+        const ScratchFolder scratch(fmt::format("rank{}", self.rank));
+        Worker worker(transport, scratch.path());
         const std::string povray = povray_version(options.povray);
         transport.send({MessageKind::hello,
                         0,
@@ -88,13 +90,27 @@ void serve(const Options& options, const RankRecord& self, Transport& transport,
 // Tells the other ranks to stop and hears them out: MPI must not be left with unread messages.
 void dismiss(Transport& transport) {
     constexpr double patience_seconds = 10;
-    for (int other = 1; other < transport.size(); ++other)
-        transport.send({MessageKind::stop, other, nlohmann::json::object(), {}});
+    send_stops(transport);
     for (int waiting = transport.size() - 1; waiting > 0;) {
         const auto message = wait_for_message(transport, patience_seconds);
         if (!message) return;
         if (message->kind == MessageKind::bye) --waiting;
     }
+}
+
+// What rank 0 does.
+void coordinate(const Options& options, const std::vector<std::string>& arguments,
+                const RankRecord& self, Transport& transport) {
+    const ScratchFolder scratch("rank0");
+    Worker worker(transport, scratch.path());  // its end ends its launches
+    JobSetup setup;
+    setup.options = options;
+    setup.command = arguments;
+    setup.command.insert(setup.command.begin(), "mpipov");
+    setup.versions = {
+        {"mpipov", MPIPOV_VERSION}, {"mpi", mpi_version()}, {"openimageio", OIIO_VERSION_STRING}};
+    setup.rank0 = self;
+    run_job(setup, transport, worker);
 }
 
 int run(const std::vector<std::string>& arguments, int rank) {
@@ -107,24 +123,14 @@ int run(const std::vector<std::string>& arguments, int rank) {
     }
     const RankRecord self = about_this_rank(options, rank);
     MpiTransport transport;
-    const ScratchFolder scratch(fmt::format("rank{}", rank));
-    Worker worker(transport, scratch.path());
     if (rank != 0) {
-        serve(options, self, transport, worker);
+        serve(options, self, transport);
         transport.send({MessageKind::bye, 0, nlohmann::json::object(), {}});
         return 0;
     }
-    JobSetup setup;
-    setup.options = options;
-    setup.command = arguments;
-    setup.command.insert(setup.command.begin(), "mpipov");
-    setup.versions = {
-        {"mpipov", MPIPOV_VERSION}, {"mpi", mpi_version()}, {"openimageio", OIIO_VERSION_STRING}};
-    setup.rank0 = self;
     try {
-        run_job(setup, transport, worker);
+        coordinate(options, arguments, self, transport);
     } catch (...) {
-        worker.stop();
         dismiss(transport);
         throw;
     }
