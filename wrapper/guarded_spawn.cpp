@@ -1,5 +1,7 @@
 #include "guarded_spawn.h"
 
+#include "installed_file.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
@@ -142,22 +144,8 @@ Spawned spawn_guarded(const ChildRequest& request) {
 }
 
 std::filesystem::path find_guard() {
-    namespace fs = std::filesystem;
-    if (const char* named = std::getenv("MPIPOV_GUARD"); named != nullptr && *named != '\0') {
-        if (::access(named, X_OK) == 0) return fs::absolute(named);
-        throw std::runtime_error(fmt::format(
-            "MPIPOV_GUARD names '{}', which is no executable file: correct or unset it", named));
-    }
-    const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
-    const std::array<fs::path, 2> places{
-        here / "mpipov-guard", here.parent_path() / "libexec" / "mpipov" / "mpipov-guard"};
-    for (const fs::path& place : places) {
-        if (::access(place.c_str(), X_OK) == 0) return place;
-    }
-    throw std::runtime_error(fmt::format(
-        "cannot find mpipov-guard, neither as '{}' nor as '{}': build or install it with mpipov, "
-        "or let MPIPOV_GUARD name it",
-        places[0].string(), places[1].string()));
+    return find_installed(
+        {.name = "mpipov-guard", .folder = "libexec/mpipov", .variable = "MPIPOV_GUARD"});
 }
 
 }  // namespace mpipov

@@ -1,17 +1,17 @@
 #include "image_file.h"
 
-#include <OpenImageIO/imageio.h>
+#include "image_library.h"
+#include "row_source.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <span>
 #include <stdexcept>
-#include <string>
+#include <string_view>
 #include <utility>
 
 namespace mpipov {
@@ -26,11 +26,11 @@ constexpr std::array<std::pair<Depth, std::string_view>, 4> depth_names{{
     {Depth::float32, "float"},
 }};
 
-[[noreturn]] void fail(const fs::path& file, std::string_view why) {
+}  // namespace
+
+void cannot_read(const fs::path& file, std::string_view why) {
     throw std::runtime_error(fmt::format("cannot read '{}': {}", file.string(), why));
 }
-
-}  // namespace
 
 std::string_view to_string(Depth depth) {
     for (const auto& [value, name] : depth_names)
@@ -58,137 +58,21 @@ std::size_t bytes_per_value(Depth depth) {
     return 0;
 }
 
-// An image file, read row by row from the top.
-class RowSource {
-  public:
-    explicit RowSource(fs::path file) : file_(std::move(file)) {}
-    virtual ~RowSource() = default;
-    RowSource(const RowSource&) = delete;
-    RowSource& operator=(const RowSource&) = delete;
-
-    const fs::path& file() const { return file_; }
-    const PixelLayout& layout() const { return layout_; }
-
-    // Rows y0..y1 of the frame into `out`, which holds just these.
-    virtual void read(int y0, int y1, std::span<std::byte> out) = 0;
-
-  protected:
-    PixelLayout layout_;
-
-  private:
-    fs::path file_;
-};
-
 namespace {
 
-// PGM and PPM, binary, as POV-Ray writes them. OpenImageIO 2.4 loads such a file as a whole, where
-// a seek to the rows is enough, and decodes some values of 16 bits one level too low.
-class PnmRows : public RowSource {
-  public:
-    explicit PnmRows(const fs::path& path) : RowSource(path), stream_(path, std::ios::binary) {
-        std::array<char, 2> magic{};
-        stream_.read(magic.data(), magic.size());
-        layout_.channels = magic[1] == '6' ? 3 : 1;
-        layout_.width = number();
-        layout_.height = number();
-        const int largest = number();
-        if (largest != 255 && largest != 65535)
-            fail(file(),
-                 fmt::format("a PNM file with the maximum {} and not 255 or 65535", largest));
-        layout_.depth = largest == 255 ? Depth::uint8 : Depth::uint16;
-        data_ = static_cast<std::uintmax_t>(stream_.tellg());
-        const std::uintmax_t needed =
-            data_ + layout_.row_bytes() * static_cast<std::uintmax_t>(layout_.height);
-        const std::uintmax_t size = fs::file_size(path);
-        if (size != needed)
-            fail(file(), fmt::format("{} bytes where {}x{} pixels take {}: {}", size, layout_.width,
-                                     layout_.height, needed,
-                                     size < needed
-                                         ? "truncated"
-                                         : "POV-Ray 3.7 damages gray PGM files of 8 bits, ask for "
-                                           "Bits_Per_Color=16 or for PNG"));
-    }
-
-    void read(int y0, int y1, std::span<std::byte> out) override {
-        stream_.seekg(static_cast<std::streamoff>(data_ + layout_.row_bytes() *
-                                                              static_cast<std::uintmax_t>(y0)));
-        stream_.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(out.size()));
-        if (!stream_)
-            fail(file(),
-                 fmt::format("rows {} to {} of {} cannot be read", y0, y1 - 1, layout_.height));
-        if (layout_.depth == Depth::uint16 && std::endian::native == std::endian::little)
-            for (std::size_t i = 0; i + 1 < out.size(); i += 2) std::swap(out[i], out[i + 1]);
-    }
-
-  private:
-    // The header's next number, and the one byte of white space that ends it.
-    int number() {
-        int c = stream_.get();
-        while (c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '#') {
-            if (c == '#')
-                while (c != '\n' && c != std::char_traits<char>::eof()) c = stream_.get();
-            c = stream_.get();
-        }
-        int value = 0;
-        for (; c >= '0' && c <= '9' && value < 10'000'000; c = stream_.get())
-            value = value * 10 + (c - '0');
-        if (value == 0 || (c != ' ' && c != '\n' && c != '\r' && c != '\t'))
-            fail(file(), "the PNM header is damaged");
-        return value;
-    }
-
-    std::ifstream stream_;
-    std::uintmax_t data_ = 0;  // where the pixels begin
-};
-
-Depth depth_of(const OIIO::ImageSpec& spec, const fs::path& file) {
-    for (const auto& [value, name] : depth_names)
-        if (spec.format == OIIO::TypeDesc(OIIO::string_view(name.data(), name.size())))
-            return value;
-    fail(file, fmt::format("pixels of type {}, which POV-Ray does not write", spec.format.c_str()));
-}
-
-class OiioRows : public RowSource {
-  public:
-    explicit OiioRows(const fs::path& path) : RowSource(path) {
-        // By the extension alone: left to itself, OpenImageIO tries a damaged file on each of its
-        // thirty readers.
-        input_ = OIIO::ImageInput::create(path.string(), false);
-        if (!input_) fail(path, OIIO::geterror());
-        OIIO::ImageSpec hints, spec;
-        hints.attribute("oiio:UnassociatedAlpha", 1);
-        if (!input_->open(path.string(), spec, hints)) fail(path, input_->geterror());
-        if (spec.tile_width != 0 || spec.depth > 1 || !spec.channelformats.empty())
-            fail(path, "a kind of image that POV-Ray does not write");
-        // How many cores a rank may use is not for this library to decide.
-        input_->threads(1);
-        layout_ = {.width = spec.width,
-                   .height = spec.height,
-                   .channels = spec.nchannels,
-                   .depth = depth_of(spec, path)};
-    }
-
-    void read(int y0, int y1, std::span<std::byte> out) override {
-        if (!input_->read_native_scanlines(0, 0, y0, y1, 0, out.data()))
-            fail(file(), fmt::format("truncated or damaged in rows {} to {} of {}: {}", y0, y1 - 1,
-                                     layout_.height, input_->geterror()));
-    }
-
-  private:
-    std::unique_ptr<OIIO::ImageInput> input_;
-};
-
 std::unique_ptr<RowSource> open_rows(const fs::path& file) {
-    std::array<char, 2> magic{};
+    constexpr std::string_view png_signature = "\x89PNG";
+    std::array<char, 4> magic{};
     {
         std::ifstream stream(file, std::ios::binary);
-        if (!stream) fail(file, std::strerror(errno));
+        if (!stream) cannot_read(file, std::strerror(errno));
         stream.read(magic.data(), magic.size());
-        if (!stream) fail(file, "the file is empty");
+        if (stream.gcount() == 0) cannot_read(file, "the file is empty");
     }
-    if (magic[0] == 'P' && (magic[1] == '5' || magic[1] == '6'))
-        return std::make_unique<PnmRows>(file);
-    return std::make_unique<OiioRows>(file);
+    const std::string_view start(magic.data(), magic.size());
+    if (start.starts_with("P5") || start.starts_with("P6")) return open_pnm_rows(file);
+    if (start == png_signature) return open_png_rows(file);
+    return image_library().open_rows(file);
 }
 
 // EXR compresses sixteen rows at a time.
@@ -205,8 +89,8 @@ SectionReader::SectionReader(const fs::path& file, int width, int height, const 
     : source_(open_rows(file)), section_(section), next_row_(section.y0), max_bytes_(max_bytes) {
     const PixelLayout& found = source_->layout();
     if (found.width != width || found.height != height)
-        fail(file, fmt::format("{}x{} pixels where {}x{} are expected", found.width, found.height,
-                               width, height));
+        cannot_read(file, fmt::format("{}x{} pixels where {}x{} are expected", found.width,
+                                      found.height, width, height));
     if (section.empty() || intersect(section, {0, 0, width, height}) != section)
         throw std::invalid_argument(
             fmt::format("section ({}, {}) to ({}, {}) does not lie within {}x{} pixels", section.x0,

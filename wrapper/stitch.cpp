@@ -1,7 +1,7 @@
 #include "stitch.h"
 
+#include <Imath/half.h>
 #include <OpenImageIO/hash.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
 
@@ -52,11 +52,8 @@ double value_at(const std::byte* at, Depth depth) {
             return load<std::uint8_t>(at);
         case Depth::uint16:
             return load<std::uint16_t>(at);
-        case Depth::half: {
-            float value = 0;
-            OIIO::convert_pixel_values(OIIO::TypeHalf, at, OIIO::TypeFloat, &value);
-            return value;
-        }
+        case Depth::half:
+            return imath_half_to_float(load<std::uint16_t>(at));
         case Depth::float32:
             return load<float>(at);
     }

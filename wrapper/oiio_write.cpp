@@ -1,7 +1,7 @@
-// From the canvas to the image file: stitch.h's write_image.
+// From the canvas to the image file.
 #include "lead_in.h"
+#include "oiio_images.h"
 #include "png_chunks.h"
-#include "stitch.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -167,8 +167,8 @@ void write_pnm(const Canvas& canvas, const FileStyle& style, OutputFile& file) {
     });
 }
 
-void write_by_oiio(const Canvas& canvas, const FileStyle& style, const OIIO::ImageSpec& spec,
-                   OIIO::Filesystem::IOProxy& target, const OutputFile& file) {
+void write_rows(const Canvas& canvas, const FileStyle& style, const OIIO::ImageSpec& spec,
+                OIIO::Filesystem::IOProxy& target, const OutputFile& file) {
     const auto output = OIIO::ImageOutput::create(style.type);
     if (!output) throw std::runtime_error(OIIO::geterror());
     const auto require = [&](bool ok) {
@@ -222,22 +222,22 @@ void encode(const Canvas& canvas, const FileStyle& style, OutputFile& file) {
     } else if (style.type == "png") {
         PngMetadataFilter filter(read_png_metadata(style.sample), sink);
         FilteredOutput target(file, [&](Bytes bytes) { filter.write(bytes); });
-        write_by_oiio(canvas, style, spec, target, file);
+        write_rows(canvas, style, spec, target, file);
         if (!filter.complete()) throw std::runtime_error("the encoder left the PNG incomplete");
     } else if (style.type == "jpeg" || style.type == "hdr") {
         LeadInFilter filter(style.type, read_lead_in(style.type, style.sample), sink);
         FilteredOutput target(file, [&](Bytes bytes) { filter.write(bytes); });
-        write_by_oiio(canvas, style, spec, target, file);
+        write_rows(canvas, style, spec, target, file);
         if (!filter.complete()) throw std::runtime_error("the encoder left the header incomplete");
     } else {
-        write_by_oiio(canvas, style, spec, file, file);
+        write_rows(canvas, style, spec, file, file);
         if (style.type == "targa") copy_tga_extension(style.sample, file);
     }
 }
 
 }  // namespace
 
-void write_image(const Canvas& canvas, const FileStyle& style, const fs::path& file) {
+void write_by_oiio(const Canvas& canvas, const FileStyle& style, const fs::path& file) {
     OutputFile output(file);
     std::string why;
     if (output.first_error() == 0) {

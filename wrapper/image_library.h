@@ -1,0 +1,29 @@
+// What needs OpenImageIO: reading files that are neither PNG nor PNM, and encoding. It lies in a
+// library of its own (mpipov-images.so), loaded when it is first needed: OpenImageIO brings some
+// 260 shared libraries along, 0.3 CPU seconds and 90 MB for each rank (docs/architecture.md), and
+// most ranks never need them.
+#pragma once
+
+#include "row_source.h"
+#include "stitch.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace mpipov {
+
+class ImageLibrary {
+  public:
+    virtual ~ImageLibrary() = default;
+
+    // Any type that OpenImageIO knows by its extension. Throws as open_png_rows does.
+    virtual std::unique_ptr<RowSource> open_rows(const std::filesystem::path& file) const = 0;
+    // stitch.h's write_image.
+    virtual void write_image(const Canvas& canvas, const FileStyle& style,
+                             const std::filesystem::path& file) const = 0;
+};
+
+// Throws std::runtime_error where it cannot be found or loaded.
+const ImageLibrary& image_library();
+
+}  // namespace mpipov

@@ -1,0 +1,19 @@
+// Finds what was built or installed with this program: beside it in the build folder, in a folder
+// of its own after an install.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace mpipov {
+
+struct InstalledFile {
+    std::string name;      // mpipov-guard
+    std::string folder;    // after an install, under the prefix: libexec/mpipov
+    std::string variable;  // of the environment, that may name another; "": none
+};
+
+// Throws std::runtime_error that says where it was looked for.
+std::filesystem::path find_installed(const InstalledFile& wanted);
+
+}  // namespace mpipov
