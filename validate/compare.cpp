@@ -1,36 +1,14 @@
 #include "compare.h"
 
 #include "failure.h"
+#include "image_stack.h"
 #include "interrupt.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <stdexcept>
 
 namespace mpipov {
-namespace {
-
-void require_same_format(const ImageSource& a, const ImageSource& b) {
-    const ImageFormat& p = a.format();
-    const ImageFormat& q = b.format();
-    const auto fail = [&](const std::string& what, const std::string& of_a,
-                          const std::string& of_b) {
-        throw Failure(Exit::file,
-                      fmt::format("cannot compare '{}' with '{}': {} differ, {} and {}",
-                                  a.file().string(), b.file().string(), what, of_a, of_b));
-    };
-    if (p.width != q.width || p.height != q.height)
-        fail("their sizes", fmt::format("{} x {}", p.width, p.height),
-             fmt::format("{} x {}", q.width, q.height));
-    if (p.channels != q.channels)
-        fail("their channels", fmt::format("{}", fmt::join(p.channels, ",")),
-             fmt::format("{}", fmt::join(q.channels, ",")));
-    if (p.depth != q.depth) fail("their depths", p.depth, q.depth);
-}
-
-}  // namespace
-
 Comparison compare_images(const CompareRequest& request) {
     ImageSource a(request.a), b(request.b);
     require_same_format(a, b);

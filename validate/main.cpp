@@ -2,6 +2,9 @@
 #include "compare_command.h"
 #include "failure.h"
 #include "interrupt.h"
+#include "noise_command.h"
+#include "report_command.h"
+#include "seams_command.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,7 +29,9 @@ int run(int argc, char** argv) {
         "mpipov-validate");
     program.set_version_flag("--version", MPIPOV_VERSION);
     program.require_subcommand(1);
-    const std::vector<mpipov::Command> commands{mpipov::add_compare_command(program)};
+    const std::vector<mpipov::Command> commands{
+        mpipov::add_compare_command(program), mpipov::add_noise_command(program),
+        mpipov::add_seams_command(program), mpipov::add_report_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version

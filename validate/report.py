@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""One self-contained HTML page out of the results of mpipov-validate.
+
+    report.py INPUT.json --output PAGE.html
+
+INPUT.json is what the subcommand `report` collected: {"root", "entries": [{"kind": seams | speedup
+| noise, "file", "folder", "problems": [text], "data": object | null}]}. Whatever the results lack,
+a page is written that says so. Names and messages in them are not trusted: they are escaped, and
+pictures are read from below the results' own folder only.
+"""
+
+import argparse
+import datetime
+import functools
+import json
+import os
+import pathlib
+import sys
+
+import jinja2
+
+sys.dont_write_bytecode = True
+from report_cases import VERDICTS, severity  # noqa: E402
+from report_scenes import noise_of, scene_view  # noqa: E402
+from report_text import at, count, listing, rounded, text, texts  # noqa: E402
+
+
+def hopeless_scene(entry, problem):
+    """Of a file that passed all checks and still cannot be shown."""
+    return scene_view({**entry, "data": None,
+                       "problems": [*texts(at(entry, "problems")),
+                                    f"cannot be shown: {type(problem).__name__}: {problem}"]})
+
+
+def scenes_of(entries):
+    scenes = []
+    for entry in entries:
+        if at(entry, "kind") != "seams":
+            continue
+        try:
+            scene = scene_view(entry)
+        except Exception as problem:  # one scene less is no reason for no page
+            scene = hopeless_scene(entry, problem)
+        if not scene["title"]:
+            scene["title"] = pathlib.PurePath(text(at(entry, "folder"), "?")).name
+        scenes.append(scene)
+    scenes.sort(key=lambda s: (s["ok"], s["failed_whole"] is None, s["title"]))
+    for index, scene in enumerate(scenes):
+        scene["id"] = f"scene-{index + 1}"
+        for number, group in enumerate(scene["groups"], 1):
+            group["id"] = f"{scene['id']}-{number}"
+            for view in group["views"]:
+                view["anchor"] = group["id"]
+    return scenes
+
+
+def table_of(scenes):
+    """Rows of the table over all: whole scenes that failed, then cases, failures first."""
+    rows = [{"scene": scene, "case": None, "mark": VERDICTS[scene["failed_whole"]]}
+            for scene in scenes if scene["failed_whole"]]
+    cases = [{"scene": scene, "case": view} for scene in scenes for view in scene["views"]]
+    cases.sort(key=lambda row: severity(row["case"])[:3])  # else by scene, then as in it
+    return rows + cases
+
+
+def tally_of(rows):
+    verdicts = [row["case"]["verdict"] if row["case"] else row["scene"]["failed_whole"]
+                for row in rows]
+    return [(verdict, VERDICTS[verdict], verdicts.count(verdict)) for verdict in VERDICTS
+            if verdict in verdicts]
+
+
+def speedup_of(entry):
+    data = at(entry, "data")
+    return {"file": at(entry, "file"), "title": text(at(data, "scene"), at(entry, "file")),
+            "problems": texts(at(entry, "problems")),
+            "rows": [{"what": text(at(row, "what"), "?"), "ranks": count(at(row, "ranks")),
+                      **{key: rounded(at(row, key)) for key in (
+                          "median_seconds", "low", "high", "speedup", "efficiency")}}
+                     for row in listing(at(data, "rows"))]}
+
+
+def noise_page_of(entry):
+    data = at(entry, "data")
+    return {"file": at(entry, "file"), "title": text(at(data, "scene"), at(entry, "file")),
+            "problems": texts(at(entry, "problems")), "noise": noise_of(at(data, "noise"))}
+
+
+@functools.cache
+def template():
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
+        undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+    return environment.get_template("report.html.j2")
+
+
+def page_of(request):
+    entries = listing(at(request, "entries"))
+    scenes = scenes_of(entries)
+    rows = table_of(scenes)
+    return template().render(
+        scenes=scenes, rows=rows, tally=tally_of(rows),
+        bad=sum(not (row["case"] and row["case"]["ok"]) for row in rows),
+        speedups=[speedup_of(e) for e in entries if at(e, "kind") == "speedup"],
+        noises=[noise_page_of(e) for e in entries if at(e, "kind") == "noise"],
+        versions=sorted({(s["mpipov"], s["povray"]) for s in scenes
+                         if s["mpipov"] and s["povray"]}),
+        made=datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),
+        root=text(at(request, "root"), "?")).lstrip()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("input", type=pathlib.Path)
+    parser.add_argument("--output", type=pathlib.Path, required=True)
+    options = parser.parse_args()
+    try:
+        page = page_of(json.loads(options.input.read_text()))
+        part = options.output.with_name(options.output.name + ".part")
+        part.write_text(page, encoding="utf-8", errors="replace")
+        os.replace(part, options.output)
+    except OSError as error:
+        print(f"cannot write '{options.output}': {error.strerror}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,129 @@
+#include "seams_command.h"
+
+#include "seams_run.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+
+namespace mpipov {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SeamsOptions {
+    std::string out, ranks = "1,2", schedule = "dynamic", shape = "columns",
+                     seams = "aligned,halo:2,plain", sections = "2,8,32", povray = "povray",
+                     mpiexec = "mpiexec";
+    int renders = default_noise_renders;
+};
+
+std::vector<Shape> shapes_of(const std::string& text) {
+    std::vector<Shape> shapes;
+    for (const std::string& piece : split_list("--shape", text)) {
+        const std::size_t before = shapes.size();
+        for (const Shape shape : {Shape::columns, Shape::rows, Shape::tiles})
+            if (piece == to_string(shape)) shapes.push_back(shape);
+        if (shapes.size() == before)
+            throw Failure(Exit::usage,
+                          fmt::format("--shape: '{}' is not one of columns, rows, tiles", piece));
+    }
+    return shapes;
+}
+
+std::vector<SeamKind> seams_of(const std::string& text) {
+    constexpr int default_halo = 2;
+    std::vector<SeamKind> kinds;
+    for (const std::string& piece : split_list("--seams", text)) {
+        if (piece == "aligned")
+            kinds.push_back({Seams::aligned, 0});
+        else if (piece == "plain")
+            kinds.push_back({Seams::plain, 0});
+        else if (piece == "halo")
+            kinds.push_back({Seams::halo, default_halo});
+        else if (piece.rfind("halo:", 0) == 0)
+            kinds.push_back({Seams::halo, split_numbers("--seams halo", piece.substr(5)).front()});
+        else
+            throw Failure(Exit::usage,
+                          fmt::format("--seams: '{}' is not one of aligned, halo:N, plain", piece));
+    }
+    return kinds;
+}
+
+std::vector<std::string> schedules_of(const std::string& text) {
+    std::vector<std::string> schedules = split_list("--schedule", text);
+    for (const std::string& piece : schedules)
+        if (piece != "static" && piece != "dynamic" && piece != "cost")
+            throw Failure(
+                Exit::usage,
+                fmt::format("--schedule: '{}' is not one of static, dynamic, cost", piece));
+    return schedules;
+}
+
+fs::path program_beside_us(const char* name) {
+    std::error_code error;
+    const fs::path file = fs::read_symlink("/proc/self/exe", error).parent_path() / name;
+    if (!fs::exists(file, error))
+        throw Failure(Exit::file,
+                      fmt::format("cannot find '{}': install mpipov as a whole", file.string()));
+    return file;
+}
+
+Exit run(const CLI::App& app, const SeamsOptions& options) {
+    SeamsRequest request;
+    request.arguments = povray_arguments(app);
+    request.schedules = schedules_of(options.schedule);
+    request.ranks = split_numbers("--ranks", options.ranks);
+    request.shapes = shapes_of(options.shape);
+    request.seams = seams_of(options.seams);
+    request.sections = split_numbers("--sections", options.sections);
+    request.renders = options.renders;
+    request.povray = options.povray;
+    request.mpiexec = options.mpiexec;
+    request.folder = make_folder(options.out);
+    SeamsReport report;
+    request.mpipov = program_beside_us("mpipov");
+    const Exit outcome = run_seams(request, report);
+    fmt::print("{}", to_table(report));
+    return outcome;
+}
+
+}  // namespace
+
+Command add_seams_command(CLI::App& program) {
+    auto options = std::make_shared<SeamsOptions>();
+    CLI::App* app = program.add_subcommand(
+        "seams",
+        "Renders a scene serially and in sections, in every combination of what is listed, and "
+        "says of each how far it is from the serial render: identical, within the scene's own "
+        "noise, or not. All arguments that are not listed here are POV-Ray's.");
+    pass_on_povray_arguments(*app);
+    app->add_option("--out", options->out, "where images, records and seams.json go")
+        ->type_name("DIR")
+        ->required();
+    const auto list = [&](const char* name, std::string& value, const char* text) {
+        app->add_option(name, value, text)->type_name("LIST")->capture_default_str();
+    };
+    list("--ranks", options->ranks, "numbers of MPI ranks");
+    list("--schedule", options->schedule, "static, dynamic, cost");
+    list("--shape", options->shape, "columns, rows, tiles");
+    list("--seams", options->seams, "aligned, halo:N, plain");
+    list("--sections", options->sections, "numbers of sections; those that cannot be are left out");
+    app->add_option("--renders", options->renders,
+                    "how many serial renders tell noise from damage, beside the reference")
+        ->check(CLI::Range(fewest_noise_renders, 1000))
+        ->capture_default_str();
+    app->add_option("--povray", options->povray, "which POV-Ray to run")->capture_default_str();
+    app->add_option("--mpiexec", options->mpiexec, "which mpiexec to run")->capture_default_str();
+    app->footer(
+        "Exit code: 0 all is as promised or within noise, 1 something is not, 2 usage, 3 the scene "
+        "or POV-Ray, 4 a file cannot be read or written, 5 interrupted.");
+    return {app, [app, options] { return run(*app, *options); }};
+}
+
+}  // namespace mpipov

@@ -1,0 +1,129 @@
+// `noise` and `seams` as programs, with the POV-Ray that is installed.
+#include "child_process.h"
+#include "scratch.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace mpipov {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+class RenderPrograms : public testing::Test {
+  protected:
+    int run(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), MPIPOV_VALIDATE_PROGRAM);
+        ChildRequest request;
+        request.argv = arguments;
+        request.working_directory = folder_.path();
+        output_.clear();
+        return run_to_end(request, &output_).exit_code.value_or(-1);
+    }
+    json read(const char* name) const {
+        std::ifstream in(folder_.path() / name);
+        return json::parse(in);
+    }
+    void program(const char* name, const std::string& script) const {
+        const fs::path file = folder_.path() / name;
+        std::ofstream(file) << "#!/bin/sh\n" << script;
+        fs::permissions(file, fs::perms::owner_all);
+    }
+    static std::string scene(const char* name) { return fmt::format("{}/{}", MPIPOV_SCENES, name); }
+
+    ScratchFolder folder_{"test"};
+    std::string output_;
+};
+
+TEST_F(RenderPrograms, AnExactSceneIsIdenticalInSections) {
+    EXPECT_EQ(run({"seams", scene("effects/none.pov"), "+W64", "+H48", "-A", "--out", "out",
+                   "--ranks", "1", "--sections", "2,40", "--seams", "aligned"}),
+              0)
+        << output_;
+    const json found = read("out/seams.json");
+    EXPECT_TRUE(found["complete"].get<bool>());
+    EXPECT_EQ(found["scene"], "none");
+    EXPECT_THAT(found["noise"]["why_not"].get<std::string>(), HasSubstr("does not depend"));
+    ASSERT_EQ(found["cases"].size(), 1U);
+    EXPECT_EQ(found["cases"][0]["name"], "dynamic.np1.columns.aligned.g2");
+    EXPECT_EQ(found["cases"][0]["verdict"]["verdict"], "identical");
+    EXPECT_EQ(found["cases"][0]["comparison"]["differing"], 0);
+    EXPECT_EQ(found["skipped"].size(), 1U);
+    EXPECT_TRUE(fs::exists(folder_.path() / "out" / found["cases"][0]["image"].get<std::string>()));
+    EXPECT_TRUE(fs::exists(folder_.path() / "out/serial-default.png"));
+}
+
+// The image is another scene when it comes to be compared.
+TEST_F(RenderPrograms, DamageInAnExactSceneIsFound) {
+    program("damaging-mpiexec",
+            "mpiexec \"$@\" || exit\n"
+            "for last; do :; done\n"
+            "cp other.png \"${last#+O}.png\"\n");
+    ChildRequest other;
+    other.argv = {"povray",     scene("basic/spheres.pov"), "+W64", "+H48", "-A", "+WT1", "-D",
+                  "+Oother.png"};
+    other.working_directory = folder_.path();
+    ASSERT_EQ(run_to_end(other, &output_).exit_code, 0) << output_;
+    EXPECT_EQ(
+        run({"seams", scene("effects/none.pov"), "+W64", "+H48", "-A", "--out", "out", "--ranks",
+             "1", "--sections", "2", "--seams", "aligned", "--mpiexec", "./damaging-mpiexec"}),
+        1)
+        << output_;
+    const json found = read("out/seams.json");
+    EXPECT_EQ(found["cases"][0]["verdict"]["verdict"], "differs");
+    EXPECT_FALSE(found["cases"][0]["verdict"]["ok"].get<bool>());
+}
+
+TEST_F(RenderPrograms, AFailedCaseIsWritten) {
+    program("broken-mpiexec", "echo it went up in smoke\nexit 7\n");
+    EXPECT_EQ(run({"seams", scene("effects/none.pov"), "+W64", "+H48", "--out", "out", "--ranks",
+                   "1", "--sections", "2", "--seams", "aligned", "--mpiexec", "./broken-mpiexec"}),
+              3)
+        << output_;
+    const json found = read("out/seams.json");
+    EXPECT_TRUE(found["complete"].get<bool>());
+    EXPECT_THAT(found["cases"][0]["failure"].get<std::string>(), HasSubstr("smoke"));
+    EXPECT_EQ(found["cases"][0]["verdict"]["verdict"], "failed");
+}
+
+TEST_F(RenderPrograms, WhatStopsEverythingIsWrittenToo) {
+    EXPECT_EQ(run({"seams", scene("effects/none.pov"), "--out", "out", "--povray", "./none"}), 3);
+    EXPECT_THAT(read("out/seams.json")["failure"].get<std::string>(), HasSubstr("./none"));
+    std::ofstream(folder_.path() / "broken.pov") << "sphere { nonsense }\n";
+    EXPECT_EQ(run({"seams", "broken.pov", "+W32", "+H24", "--out", "out"}), 3) << output_;
+    EXPECT_THAT(read("out/seams.json")["failure"].get<std::string>(), HasSubstr("POV-Ray: "));
+    EXPECT_FALSE(read("out/seams.json")["complete"].get<bool>());
+}
+
+TEST_F(RenderPrograms, NoiseOfANoisyScene) {
+    EXPECT_EQ(run({"noise", scene("effects/crand.pov"), "+W96", "+H64", "+A0.3", "+AM1",
+                   "--renders", "3", "--out", "out", "--json", "-"}),
+              0)
+        << output_;
+    const json found = read("out/noise.json");
+    EXPECT_FALSE(found["exact"].get<bool>());
+    ASSERT_EQ(found["noise"]["renders"].size(), 3U);
+    EXPECT_GT(found["noise"]["sigma"].get<double>(), 0.5);
+    EXPECT_TRUE(fs::exists(folder_.path() / "out" /
+                           found["noise"]["renders"][0]["image"].get<std::string>()));
+}
+
+TEST_F(RenderPrograms, UsageErrors) {
+    EXPECT_EQ(run({"seams", "scene.pov"}), 2);
+    EXPECT_EQ(run({"seams", "--out", "out"}), 2);
+    EXPECT_THAT(output_, HasSubstr("no scene"));
+    EXPECT_EQ(run({"noise", "scene.pov", "--nonsense"}), 2);
+    EXPECT_THAT(output_, HasSubstr("--nonsense"));
+    EXPECT_EQ(run({"seams", "scene.pov", "--out", "out", "--ranks", "1,x"}), 2);
+    EXPECT_EQ(run({"seams", "scene.pov", "--out", "out", "--seams", "halo:0"}), 2);
+    EXPECT_EQ(run({"noise", "scene.pov", "--renders", "1"}), 2);
+    EXPECT_EQ(run({"seams", "--help"}), 0);
+}
+
+}  // namespace
+}  // namespace mpipov

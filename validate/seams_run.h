@@ -1,0 +1,39 @@
+// Renders a scene serially and in sections, in all the ways asked for, and judges the difference.
+#pragma once
+
+#include "failure.h"
+#include "render_options.h"
+#include "section.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mpipov {
+
+struct SeamKind {
+    Seams seams = Seams::aligned;
+    int halo = 0;
+    std::string text() const;  // as --seams of mpipov takes it
+    std::string name() const;  // without a colon
+};
+
+struct SeamsRequest {
+    std::vector<std::string> arguments;  // scene and POV-Ray's own
+    std::filesystem::path folder;
+    std::vector<std::string> schedules{"dynamic"};
+    std::vector<int> ranks{1, 2};
+    std::vector<Shape> shapes{Shape::columns};
+    std::vector<SeamKind> seams;
+    std::vector<int> sections{2, 8, 32};
+    int renders = default_noise_renders;
+    std::string povray = "povray", mpiexec = "mpiexec";
+    std::filesystem::path mpipov;  // the program
+};
+
+// Writes seams.json into the folder after every case, whatever fails. Exit::ok or Exit::differ; of
+// a failed case what mpipov exited with. Throws Failure for what stops all cases, once that is
+// written too.
+Exit run_seams(const SeamsRequest& request, SeamsReport& report);
+
+}  // namespace mpipov

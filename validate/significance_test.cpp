@@ -1,0 +1,54 @@
+#include "significance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace mpipov {
+namespace {
+
+TEST(Significance, SidakLeavesTheWholeAtAlpha) {
+    EXPECT_DOUBLE_EQ(sidak(0.01, 1), 0.01);
+    for (const double tests : {2.0, 21.0, 57600.0, 1e9})
+        EXPECT_NEAR(std::exp(tests * std::log1p(-sidak(0.01, tests))), 0.99, 1e-9) << tests;
+}
+
+TEST(Significance, StudentsQuantilesAreThoseOfTheTables) {
+    EXPECT_NEAR(t_quantile(0.025, 10), 2.228, 5e-4);
+    EXPECT_NEAR(t_quantile(0.005, 4), 4.604, 5e-4);
+    EXPECT_NEAR(t_quantile(0.05, 1), 6.314, 5e-4);
+    EXPECT_THROW(t_quantile(0.05, 0), std::invalid_argument);
+}
+
+TEST(TailSample, KeepsTheLargestOfAll) {
+    TailSample low, high;
+    for (int i = 0; i < 500; ++i) low.add(i);
+    for (int i = 0; i < 10; ++i) high.add(1000 + i);
+    low.add(high);
+    EXPECT_EQ(low.count(), 510);
+    ASSERT_EQ(low.largest().size(), TailSample::kept);
+    EXPECT_EQ(low.largest()[0], 1009);
+    EXPECT_EQ(low.largest()[10], 499);
+}
+
+// Pareto's tail, P(X > x) = x^-4, at its exact quantiles.
+TEST(CriticalValue, ExtendsAHeavyTailToWhatWasNotSeen) {
+    constexpr int count = 100000;
+    TailSample quiet;
+    for (int i = 0; i < count; ++i) quiet.add(std::pow((i + 0.5) / count, -0.25));
+    const double p = 1e-6;
+    EXPECT_NEAR(critical_value(quiet, p, 0), std::pow(p, -0.25), 0.1 * std::pow(p, -0.25));
+    EXPECT_EQ(critical_value(quiet, p, 1000), 1000);
+}
+
+TEST(CriticalValue, IsTheoreticalWithoutATail) {
+    TailSample few, zeros;
+    for (int i = 0; i < 7; ++i) few.add(100);
+    for (int i = 0; i < 1000; ++i) zeros.add(0);
+    EXPECT_EQ(critical_value(few, 0.01, 3), 3);
+    EXPECT_EQ(critical_value(zeros, 0.01, 3), 3);
+}
+
+}  // namespace
+}  // namespace mpipov
