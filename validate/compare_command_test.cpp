@@ -1,7 +1,6 @@
 // The program as a whole: exit codes, streams, files.
-#include "child_process.h"
 #include "image_source.h"
-#include "scratch.h"
+#include "program_test.h"
 #include "test_image.h"
 
 #include <gmock/gmock.h>
@@ -20,8 +19,9 @@ using nlohmann::json;
 using OIIO::TypeDesc;
 using testing::HasSubstr;
 
-class CompareProgram : public testing::Test {
+class CompareProgram : public ProgramTest {
   protected:
+    CompareProgram() : ProgramTest({"compare"}) {}
     void SetUp() override {
         write_image(path("a.png"), a_, TypeDesc::UINT8);
         TestImage b = a_;
@@ -29,24 +29,12 @@ class CompareProgram : public testing::Test {
         write_image(path("b.png"), b, TypeDesc::UINT8);
     }
 
-    int run(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), {MPIPOV_VALIDATE_PROGRAM, "compare"});
-        ChildRequest request;
-        request.argv = arguments;
-        request.working_directory = folder_.path();
-        output_.clear();
-        return run_to_end(request, &output_).exit_code.value_or(-1);
-    }
-
-    fs::path path(const char* name) const { return folder_.path() / name; }
     json read(const char* name) const {
         std::ifstream in(path(name));
         return json::parse(in);
     }
 
-    ScratchFolder folder_{"test"};
     TestImage a_ = textured(128, 32);
-    std::string output_;
 };
 
 TEST_F(CompareProgram, IdenticalImages) {

@@ -1,4 +1,5 @@
 #include "compare_report.h"
+#include "json_parts.h"
 
 #include <cmath>
 
@@ -7,29 +8,15 @@ namespace {
 
 using nlohmann::json;
 
-json number(const std::optional<double>& value) {
-    return value ? json(*value) : json();
-}
-
-json rect_json(const Rect& r) {
-    if (r.empty()) return nullptr;
-    return {{"x0", r.x0}, {"y0", r.y0}, {"x1", r.x1}, {"y1", r.y1}};
-}
-
-json line_json(const Seam& s) {
-    return {{"a", s.a},       {"b", s.b},  {"vertical", s.vertical}, {"position", s.position},
-            {"from", s.from}, {"to", s.to}};
-}
-
 json counts_json(const PixelCounts& counts) {
     return {{"pixels", counts.pixels}, {"differing", counts.differing}};
 }
 
 json errors_json(const ErrorSums& errors) {
-    return {{"mean_abs", number(errors.mean_abs())},
-            {"mean_signed", number(errors.mean_signed())},
-            {"rms", number(errors.rms())},
-            {"max", number(errors.max())}};
+    return {{"mean_abs", number_json(errors.mean_abs())},
+            {"mean_signed", number_json(errors.mean_signed())},
+            {"rms", number_json(errors.rms())},
+            {"max", number_json(errors.max())}};
 }
 
 json group_json(const GroupErrors& group) {
@@ -40,16 +27,16 @@ json group_json(const GroupErrors& group) {
 
 json step_json(const LineStep& step) {
     json channels = json::array();
-    for (const auto& channel : step.channels) channels.push_back(number(channel));
-    return {{"mean_step", number(step.mean_step)},
-            {"local_step", number(step.local_step)},
+    for (const auto& channel : step.channels) channels.push_back(number_json(channel));
+    return {{"mean_step", number_json(step.mean_step)},
+            {"local_step", number_json(step.local_step)},
             {"channels", channels}};
 }
 
 json summary_json(const StepSummary& summary) {
     return {{"lines", summary.lines},
-            {"mean_step", number(summary.mean_step)},
-            {"local_step", number(summary.local_step)}};
+            {"mean_step", number_json(summary.mean_step)},
+            {"local_step", number_json(summary.local_step)}};
 }
 
 json nonfinite_json(const NonFinite& found, const ImageFormat& format) {
@@ -73,7 +60,7 @@ json ssim_json(const std::optional<Ssim>& ssim, const ImageFormat& format) {
     json channels = json::object();
     for (std::size_t c = 0; c < ssim->per_channel.size(); ++c)
         channels[format.channels[c]] = ssim->per_channel[c];
-    return {{"value", number(ssim->value)},
+    return {{"value", number_json(ssim->value)},
             {"per_channel", channels},
             {"reason", ssim->reason.empty() ? json() : json(ssim->reason)}};
 }
@@ -158,11 +145,7 @@ json to_json(const Comparison& comparison) {
             {"version", 1},
             {"a", {{"file", comparison.a.string()}, {"type", format.type}}},
             {"b", {{"file", comparison.b.string()}, {"type", comparison.type_b}}},
-            {"image",
-             {{"width", format.width},
-              {"height", format.height},
-              {"channels", format.channels},
-              {"depth", format.depth}}},
+            {"image", image_json(format)},
             {"unit", format.integer() ? "level" : "value"},
             {"full_scale", format.full_scale()},
             {"identical", comparison.identical()},
@@ -172,7 +155,7 @@ json to_json(const Comparison& comparison) {
             {"mean_abs", both(metrics.all.mean_abs())},
             {"mean_signed", both(metrics.all.mean_signed())},
             {"rms", both(metrics.all.rms())},
-            {"psnr", number(comparison.psnr())},
+            {"psnr", number_json(comparison.psnr())},
             {"peak", comparison.peak},
             {"largest", largest},
             {"channels", channels},

@@ -9,40 +9,6 @@
 namespace mpipov {
 
 namespace {
-constexpr int rows_per_band = 8;
-}
-
-ImageStack::ImageStack(const std::vector<std::filesystem::path>& files) {
-    sources_.reserve(files.size());
-    for (const auto& file : files) {
-        sources_.emplace_back(file);
-        require_same_format(sources_.front(), sources_.back());
-    }
-}
-
-ImageShape ImageStack::shape() const {
-    return {format().width, format().height, format().channel_count(), format().alpha};
-}
-
-void ImageStack::for_each_row(const Row& row) {
-    std::vector<ImageBand> bands(sources_.size());
-    std::vector<std::span<const double>> rows(sources_.size());
-    while (sources_.front().next_band(rows_per_band, bands.front())) {
-        throw_if_interrupted();
-        for (std::size_t i = 1; i < sources_.size(); ++i)
-            sources_[i].next_band(rows_per_band, bands[i]);
-        for (int r = 0; r < bands.front().rows; ++r) {
-            for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = bands[i].row(r);
-            row(bands.front().y + r, rows);
-        }
-    }
-}
-
-Quantisation quantisation_of(const ImageFormat& format) {
-    if (format.integer()) return {Quantisation::Kind::levels};
-    if (format.type == "hdr") return {Quantisation::Kind::shared_exponent};
-    return {format.depth == "half" ? Quantisation::Kind::half : Quantisation::Kind::float32};
-}
 
 void require_same_format(const ImageSource& a, const ImageSource& b) {
     const ImageFormat& p = a.format();
@@ -60,6 +26,40 @@ void require_same_format(const ImageSource& a, const ImageSource& b) {
         fail("their channels", fmt::format("{}", fmt::join(p.channels, ",")),
              fmt::format("{}", fmt::join(q.channels, ",")));
     if (p.depth != q.depth) fail("their depths", p.depth, q.depth);
+}
+
+}  // namespace
+
+ImageStack::ImageStack(const std::vector<std::filesystem::path>& files) {
+    sources_.reserve(files.size());
+    for (const auto& file : files) {
+        sources_.emplace_back(file);
+        require_same_format(sources_.front(), sources_.back());
+    }
+}
+
+ImageShape ImageStack::shape() const {
+    return {format().width, format().height, format().channel_count(), format().alpha};
+}
+
+void ImageStack::for_each_row(const Row& row, int rows_per_band) {
+    std::vector<ImageBand> bands(sources_.size());
+    std::vector<std::span<const double>> rows(sources_.size());
+    while (sources_.front().next_band(rows_per_band, bands.front())) {
+        throw_if_interrupted();
+        for (std::size_t i = 1; i < sources_.size(); ++i)
+            sources_[i].next_band(rows_per_band, bands[i]);
+        for (int r = 0; r < bands.front().rows; ++r) {
+            for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = bands[i].row(r);
+            row(bands.front().y + r, rows);
+        }
+    }
+}
+
+Quantisation quantisation_of(const ImageFormat& format) {
+    if (format.integer()) return {Quantisation::Kind::levels};
+    if (format.type == "hdr") return {Quantisation::Kind::shared_exponent};
+    return {format.depth == "half" ? Quantisation::Kind::half : Quantisation::Kind::float32};
 }
 
 }  // namespace mpipov

@@ -18,13 +18,14 @@ class ImageStack {
     // Throws Failure(Exit::file) where one cannot be read or is not like the first.
     explicit ImageStack(const std::vector<std::filesystem::path>& files);
 
-    const ImageFormat& format() const { return sources_.front().format(); }
+    const ImageFormat& format(std::size_t image = 0) const { return sources_[image].format(); }
     ImageShape shape() const;
 
-    // Calls `row` for rows 0, 1, ... with that row of every image. Once. Throws
-    // Failure(Exit::interrupted), and Failure(Exit::file) where a file ends early.
+    // Calls `row` for rows 0, 1, ... with that row of every image. Once. `rows_per_band` changes
+    // memory, not results. Throws Failure(Exit::interrupted), and Failure(Exit::file) where a file
+    // ends early.
     using Row = std::function<void(int y, std::span<const std::span<const double>> rows)>;
-    void for_each_row(const Row& row);
+    void for_each_row(const Row& row, int rows_per_band = 8);
 
   private:
     std::vector<ImageSource> sources_;
@@ -32,8 +33,5 @@ class ImageStack {
 
 // What values of such a file are rounded to.
 Quantisation quantisation_of(const ImageFormat& format);
-
-// Throws Failure(Exit::file) where images `a` and `b` are not of one size, channels and depth.
-void require_same_format(const ImageSource& a, const ImageSource& b);
 
 }  // namespace mpipov

@@ -40,12 +40,7 @@ Exit run_noise(const CLI::App& app, const NoiseOptions& options) {
                    {"scene", scene.name},
                    {"file", scene.file},
                    {"arguments", arguments},
-                   {"image",
-                    {{"width", format.width},
-                     {"height", format.height},
-                     {"channels", format.channels},
-                     {"depth", format.depth},
-                     {"type", format.type}}},
+                   {"image", typed_image_json(format)},
                    {"versions", {{"mpipov", MPIPOV_VERSION}, {"povray", scene.povray_version}}},
                    {"exact", noise.exact},
                    {"noise", to_json(noise, folder)}};

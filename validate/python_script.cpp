@@ -2,25 +2,16 @@
 
 #include "failure.h"
 #include "run_child.h"
+#include "shipped_file.h"
 
 #include <fmt/format.h>
 
 namespace mpipov {
 
-std::filesystem::path find_script(const std::string& name) {
-    namespace fs = std::filesystem;
-    std::error_code error;
-    const fs::path here = fs::read_symlink("/proc/self/exe", error).parent_path();
-    fs::path file = (here / MPIPOV_SHARE_FROM_BIN / name).lexically_normal();
-    if (!fs::exists(file, error))
-        throw Failure(Exit::file,
-                      fmt::format("cannot find '{}': install mpipov as a whole", file.string()));
-    return file;
-}
-
 void run_script(const std::string& name, const std::vector<std::string>& arguments) {
     ChildRequest request;
-    request.argv = {MPIPOV_PYTHON, find_script(name).string()};
+    request.argv = {MPIPOV_PYTHON,
+                    shipped_file(std::filesystem::path(MPIPOV_SHARE_FROM_BIN) / name).string()};
     request.argv.insert(request.argv.end(), arguments.begin(), arguments.end());
     request.environment = {{"PYTHONDONTWRITEBYTECODE", "1"}};
     std::string output;

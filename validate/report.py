@@ -70,20 +70,22 @@ def tally_of(rows):
             if verdict in verdicts]
 
 
+def heading_of(entry):
+    return {"file": at(entry, "file"),
+            "title": text(at(entry, "data", "scene"), at(entry, "file")),
+            "problems": texts(at(entry, "problems"))}
+
+
 def speedup_of(entry):
-    data = at(entry, "data")
-    return {"file": at(entry, "file"), "title": text(at(data, "scene"), at(entry, "file")),
-            "problems": texts(at(entry, "problems")),
+    return {**heading_of(entry),
             "rows": [{"what": text(at(row, "what"), "?"), "ranks": count(at(row, "ranks")),
                       **{key: rounded(at(row, key)) for key in (
                           "median_seconds", "low", "high", "speedup", "efficiency")}}
-                     for row in listing(at(data, "rows"))]}
+                     for row in listing(at(entry, "data", "rows"))]}
 
 
 def noise_page_of(entry):
-    data = at(entry, "data")
-    return {"file": at(entry, "file"), "title": text(at(data, "scene"), at(entry, "file")),
-            "problems": texts(at(entry, "problems")), "noise": noise_of(at(data, "noise"))}
+    return {**heading_of(entry), "noise": noise_of(at(entry, "data", "noise"))}
 
 
 @functools.cache

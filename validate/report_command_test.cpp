@@ -1,8 +1,7 @@
 // The program as a whole: which results it finds, what it finds wrong in them, exit codes, the
 // page.
-#include "child_process.h"
+#include "program_test.h"
 #include "report_input.h"
-#include "scratch.h"
 #include "test_image.h"
 
 #include <gmock/gmock.h>
@@ -29,8 +28,10 @@ json good_seams() {
         [{"name": "case-1", "verdict": {"verdict": "identical", "ok": true, "why": "equal"}}]})");
 }
 
-class ReportCommand : public testing::Test {
+class ReportCommand : public ProgramTest {
   protected:
+    ReportCommand() : ProgramTest({"report"}) {}
+
     void write(const fs::path& name, const std::string& text) {
         fs::create_directories(path(name).parent_path());
         std::ofstream(path(name)) << text;
@@ -42,24 +43,11 @@ class ReportCommand : public testing::Test {
         return collect_results(folder_.path()).at("entries").at(0).at("problems");
     }
 
-    int run(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), {MPIPOV_VALIDATE_PROGRAM, "report"});
-        ChildRequest request;
-        request.argv = arguments;
-        request.working_directory = folder_.path();
-        output_.clear();
-        return run_to_end(request, &output_).exit_code.value_or(-1);
-    }
-
-    fs::path path(const fs::path& name) const { return folder_.path() / name; }
     std::string read(const char* name) const {
         std::ostringstream text;
         text << std::ifstream(path(name)).rdbuf();
         return text.str();
     }
-
-    ScratchFolder folder_{"test"};
-    std::string output_;
 };
 
 TEST_F(ReportCommand, FindsResultsAtAnyDepthInOrder) {

@@ -1,6 +1,7 @@
 #include "seams_command.h"
 
 #include "seams_run.h"
+#include "shipped_file.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -13,8 +14,6 @@
 
 namespace mpipov {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct SeamsOptions {
     std::string out, ranks = "1,2", schedule = "dynamic", shape = "columns",
@@ -65,15 +64,6 @@ std::vector<std::string> schedules_of(const std::string& text) {
     return schedules;
 }
 
-fs::path program_beside_us(const char* name) {
-    std::error_code error;
-    const fs::path file = fs::read_symlink("/proc/self/exe", error).parent_path() / name;
-    if (!fs::exists(file, error))
-        throw Failure(Exit::file,
-                      fmt::format("cannot find '{}': install mpipov as a whole", file.string()));
-    return file;
-}
-
 Exit run(const CLI::App& app, const SeamsOptions& options) {
     SeamsRequest request;
     request.arguments = povray_arguments(app);
@@ -87,7 +77,7 @@ Exit run(const CLI::App& app, const SeamsOptions& options) {
     request.mpiexec = options.mpiexec;
     request.folder = make_folder(options.out);
     SeamsReport report;
-    request.mpipov = program_beside_us("mpipov");
+    request.mpipov = shipped_file("mpipov");
     const Exit outcome = run_seams(request, report);
     fmt::print("{}", to_table(report));
     return outcome;

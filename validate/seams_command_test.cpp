@@ -1,6 +1,6 @@
 // `noise` and `seams` as programs, with the POV-Ray that is installed.
-#include "child_process.h"
-#include "scratch.h"
+
+#include "program_test.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -15,16 +15,10 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
 
-class RenderPrograms : public testing::Test {
+class RenderPrograms : public ProgramTest {
   protected:
-    int run(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), MPIPOV_VALIDATE_PROGRAM);
-        ChildRequest request;
-        request.argv = arguments;
-        request.working_directory = folder_.path();
-        output_.clear();
-        return run_to_end(request, &output_).exit_code.value_or(-1);
-    }
+    RenderPrograms() : ProgramTest({}) {}
+
     json read(const char* name) const {
         std::ifstream in(folder_.path() / name);
         return json::parse(in);
@@ -35,9 +29,6 @@ class RenderPrograms : public testing::Test {
         fs::permissions(file, fs::perms::owner_all);
     }
     static std::string scene(const char* name) { return fmt::format("{}/{}", MPIPOV_SCENES, name); }
-
-    ScratchFolder folder_{"test"};
-    std::string output_;
 };
 
 TEST_F(RenderPrograms, AnExactSceneIsIdenticalInSections) {

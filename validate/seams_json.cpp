@@ -1,4 +1,5 @@
 #include "compare_report.h"
+#include "json_parts.h"
 #include "seams_report.h"
 
 #include <algorithm>
@@ -10,10 +11,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-json number(const std::optional<double>& value) {
-    return value && std::isfinite(*value) ? json(*value) : json();
-}
-
 json text(const std::string& value) {
     return value.empty() ? json() : json(value);
 }
@@ -22,11 +19,6 @@ json file_in(const fs::path& file, const fs::path& folder) {
     if (file.empty()) return nullptr;
     const fs::path inside = file.lexically_relative(folder);
     return inside.empty() || *inside.begin() == ".." ? file.string() : inside.string();
-}
-
-json rect_json(const Rect& r) {
-    if (r.empty()) return nullptr;
-    return {{"x0", r.x0}, {"y0", r.y0}, {"x1", r.x1}, {"y1", r.y1}};
 }
 
 json serial_json(const SerialRender& render, const fs::path& folder) {
@@ -56,7 +48,7 @@ json distances_json(const std::vector<NoiseRender>& renders) {
             low = std::min(low.value_or(*mean), *mean);
             high = std::max(high.value_or(*mean), *mean);
         }
-        list.push_back({{"distance", d}, {"low", number(low)}, {"high", number(high)}});
+        list.push_back({{"distance", d}, {"low", number_json(low)}, {"high", number_json(high)}});
     }
     return list;
 }
@@ -66,12 +58,12 @@ json render_json(const NoiseRender& render, const fs::path& folder) {
     json j = serial_json(render.render, folder);
     const auto* seams = found.seams ? &*found.seams : nullptr;
     j.update({{"name", render.render.name},
-              {"mean", number(found.metrics.all.mean_abs())},
-              {"rms", number(found.metrics.all.rms())},
-              {"max", number(found.metrics.all.max())},
+              {"mean", number_json(found.metrics.all.mean_abs())},
+              {"rms", number_json(found.metrics.all.rms())},
+              {"max", number_json(found.metrics.all.max())},
               {"differing_pixels", found.metrics.counts.differing},
-              {"mean_step", seams ? number(seams->seam_steps.mean_step) : json()},
-              {"local_step", seams ? number(seams->seam_steps.local_step) : json()}});
+              {"mean_step", seams ? number_json(seams->seam_steps.mean_step) : json()},
+              {"local_step", seams ? number_json(seams->seam_steps.local_step) : json()}});
     return j;
 }
 
@@ -82,9 +74,9 @@ json pixel_json(const PixelTest& test, const ImageFormat& format) {
             {"x", test.at->x},
             {"y", test.at->y},
             {"channel", format.channels[static_cast<std::size_t>(test.at->channel)]},
-            {"value", number(test.at->value)},
-            {"mean", number(test.at->expected)},
-            {"sigma", number(test.at->sigma)},
+            {"value", number_json(test.at->value)},
+            {"mean", number_json(test.at->expected)},
+            {"sigma", number_json(test.at->sigma)},
             {"seam_distance", test.at->seam_distance < 0 ? json() : json(test.at->seam_distance)}};
     json sections = json::object();
     for (const auto& [id, count] : test.beyond_by_section) sections[std::to_string(id)] = count;
@@ -92,7 +84,7 @@ json pixel_json(const PixelTest& test, const ImageFormat& format) {
             {"alpha_sidak", test.alpha_sidak},
             {"samples", test.samples},
             {"renders", test.renders},
-            {"largest_z", number(test.largest)},
+            {"largest_z", number_json(test.largest)},
             {"critical_z", test.critical},
             {"at", at},
             {"beyond", test.beyond},
@@ -107,26 +99,20 @@ json step_json(const StepTest& test, const ImageFormat& format) {
               {"alpha_sidak", test.alpha_sidak},
               {"tests", test.tests},
               {"renders", test.renders},
-              {"largest", number(test.largest)},
+              {"largest", number_json(test.largest)},
               {"critical", test.critical},
               {"seam", nullptr},
               {"line", nullptr},
               {"channel", nullptr},
-              {"step", number(test.step)},
-              {"expected", number(test.expected)},
+              {"step", number_json(test.step)},
+              {"expected", number_json(test.expected)},
               {"beyond", test.beyond},
               {"controls_beyond", test.controls_beyond},
               {"together", nullptr}};
     if (test.at) {
-        const Seam& line = test.at->line;
         j["seam"] = test.at->seam;
         j["channel"] = format.channels[static_cast<std::size_t>(test.at->channel)];
-        j["line"] = {{"a", line.a},
-                     {"b", line.b},
-                     {"vertical", line.vertical},
-                     {"position", line.position},
-                     {"from", line.from},
-                     {"to", line.to}};
+        j["line"] = line_json(test.at->line);
     }
     if (test.together)
         j["together"] = {{"mean", test.together->mean},
@@ -193,12 +179,19 @@ json case_json(const SeamsCase& one, const fs::path& folder) {
 json effects_json(const std::map<std::string, Effect>& effects) {
     json j = json::object();
     for (const auto& [name, effect] : effects)
-        j[name] = {
-            {"on", effect.on}, {"why", effect.why}, {"cpu_seconds", number(effect.cpu_seconds)}};
+        j[name] = {{"on", effect.on},
+                   {"why", effect.why},
+                   {"cpu_seconds", number_json(effect.cpu_seconds)}};
     return j;
 }
 
 }  // namespace
+
+json typed_image_json(const ImageFormat& format) {
+    json j = image_json(format);
+    j["type"] = format.type;
+    return j;
+}
 
 json to_json(const NoiseReport& noise, const fs::path& folder) {
     if (noise.renders.empty()) return {{"why_not", noise.why_not}, {"tried", noise.tried}};
@@ -221,7 +214,7 @@ json to_json(const NoiseReport& noise, const fs::path& folder) {
     if (!noise.why_not.empty()) j["why_not_enough"] = noise.why_not;
     if (noise.floor) {
         const NoiseFloor& floor = *noise.floor;
-        j["sigma"] = number(floor.sigma);
+        j["sigma"] = number_json(floor.sigma);
         j["largest_sigma"] = {
             {"sigma", floor.largest_sigma},
             {"x", floor.x},
@@ -242,12 +235,7 @@ json to_json(const SeamsReport& report) {
     for (const SkippedCase& one : report.skipped)
         skipped.push_back({{"name", one.name}, {"why", one.why}});
     json image;
-    if (report.image)
-        image = {{"width", report.image->width},
-                 {"height", report.image->height},
-                 {"channels", report.image->channels},
-                 {"depth", report.image->depth},
-                 {"type", report.image->type}};
+    if (report.image) image = typed_image_json(*report.image);
     return {{"format", "mpipov-seams"},
             {"version", 1},
             {"scene", report.scene},

@@ -66,6 +66,8 @@ struct SeamsReport {
     std::vector<SkippedCase> skipped;  // that cannot be: so many sections, so few columns
 };
 
+// image_json of json_parts.h, and the file type.
+nlohmann::json typed_image_json(const ImageFormat& format);
 nlohmann::json to_json(const NoiseReport& noise, const std::filesystem::path& folder);
 nlohmann::json to_json(const SeamsReport& report);
 

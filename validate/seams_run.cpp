@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 
 namespace mpipov {
@@ -150,16 +149,10 @@ class SeamsRun {
             return false;
         }
         if (result.exit_code != 0)
-            throw Failure(code_of(result), fmt::format("mpipov failed: {}", last_line(output)));
+            throw Failure(
+                result.exit_code == static_cast<int>(Exit::file) ? Exit::file : Exit::scene,
+                fmt::format("mpipov failed: {}", last_line(output)));
         return true;
-    }
-
-    static Exit code_of(const ChildResult& result) {
-        static constexpr std::array known{Exit::scene, Exit::file, Exit::interrupted};
-        for (const Exit code : known)
-            if (result.exit_code == static_cast<int>(code))
-                return code == Exit::interrupted ? Exit::scene : code;
-        return Exit::scene;
     }
 
     void judge(SeamsCase& one) {

@@ -11,6 +11,10 @@ namespace mpipov {
 
 namespace fs = std::filesystem;
 
+fs::path program_folder() {
+    return fs::read_symlink("/proc/self/exe").parent_path();
+}
+
 fs::path find_installed(const InstalledFile& wanted) {
     const char* named = wanted.variable.empty() ? nullptr : std::getenv(wanted.variable.c_str());
     if (named != nullptr && *named != '\0') {
@@ -19,7 +23,7 @@ fs::path find_installed(const InstalledFile& wanted) {
             fmt::format("{} names '{}', which is no executable file: correct or unset it",
                         wanted.variable, named));
     }
-    const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
+    const fs::path here = program_folder();
     const std::array<fs::path, 2> places{here / wanted.name,
                                          here.parent_path() / wanted.folder / wanted.name};
     for (const fs::path& place : places)

@@ -13,6 +13,9 @@ struct InstalledFile {
     std::string variable;  // of the environment, that may name another; "": none
 };
 
+// The folder that this program lies in.
+std::filesystem::path program_folder();
+
 // Throws std::runtime_error that says where it was looked for.
 std::filesystem::path find_installed(const InstalledFile& wanted);
 

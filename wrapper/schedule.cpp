@@ -33,6 +33,7 @@ Schedule::Schedule(Policy policy, const std::vector<int>& sections, const std::v
 }
 
 bool Schedule::may_take(int section, int worker) const {
+    if (entries_.at(section).done) return false;
     const std::vector<int>& failed_on = entries_.at(section).failed_on;
     if (std::find(failed_on.begin(), failed_on.end(), worker) == failed_on.end()) return true;
     // It failed here: wait for somebody else, unless it has failed everywhere.
@@ -46,6 +47,8 @@ bool Schedule::may_take(int section, int worker) const {
 std::optional<int> Schedule::next(int worker) {
     if (lanes_.at(static_cast<std::size_t>(worker)) == 0) return {};
     for (std::deque<int>* queue : {&owned_[static_cast<std::size_t>(worker)], &shared_}) {
+        // An earlier run may have finished what nobody was given yet.
+        while (!queue->empty() && entries_.at(queue->front()).done) queue->pop_front();
         const auto found = std::find_if(queue->begin(), queue->end(),
                                         [&](int section) { return may_take(section, worker); });
         if (found == queue->end()) continue;
@@ -62,9 +65,6 @@ void Schedule::finished(int section) {
     if (entry.done) return;
     entry.done = true;
     --unfinished_;
-    // An earlier run may have finished what nobody was given yet.
-    std::erase(shared_, section);
-    for (std::deque<int>& queue : owned_) std::erase(queue, section);
 }
 
 void Schedule::failed(int section, int worker) {
