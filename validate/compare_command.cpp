@@ -34,10 +34,9 @@ RunRecord read_run(const std::string& file) {
 std::optional<Ssim> ssim_of(const Comparison& comparison, const CompareOptions& options) {
     if (options.no_ssim) return {};
     const bool wanted = options.ssim || !options.map.empty();
-    if (comparison.identical() && !wanted)
-        return Ssim{1.0, {}, "by definition: the images are identical"};
+    if (comparison.identical() && !wanted) return ssim_of_identical();
     try {
-        return compute_ssim(comparison.a, comparison.b, comparison.peak, options.map);
+        return compute_ssim({{comparison.a, comparison.b, options.map}}, comparison.peak).front();
     } catch (const Failure& failure) {
         if (wanted || failure.code() == Exit::interrupted) throw;
         return Ssim{{}, {}, failure.what()};

@@ -31,4 +31,16 @@ json image_json(const ImageFormat& format) {
             {"depth", format.depth}};
 }
 
+json typed_image_json(const ImageFormat& format) {
+    json j = image_json(format);
+    j["type"] = format.type;
+    return j;
+}
+
+json file_json(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    if (file.empty()) return nullptr;
+    const std::filesystem::path inside = file.lexically_relative(folder);
+    return inside.empty() || *inside.begin() == ".." ? file.string() : inside.string();
+}
+
 }  // namespace mpipov

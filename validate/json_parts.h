@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <optional>
 
 namespace mpipov {
@@ -18,5 +19,8 @@ nlohmann::json rect_json(const Rect& rect);
 nlohmann::json line_json(const Seam& line);
 // Without the file type, which two images that are compared need not share.
 nlohmann::json image_json(const ImageFormat& format);
+nlohmann::json typed_image_json(const ImageFormat& format);
+// A file's path, relative to `folder` where it lies in it; null for none.
+nlohmann::json file_json(const std::filesystem::path& file, const std::filesystem::path& folder);
 
 }  // namespace mpipov

@@ -3,6 +3,7 @@
 #include "json_output.h"
 #include "render_options.h"
 #include "scratch.h"
+#include "seams_report.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -24,33 +25,21 @@ struct NoiseOptions {
 };
 
 Exit run_noise(const CLI::App& app, const NoiseOptions& options) {
-    const std::vector<std::string> arguments = povray_arguments(app);
+    SerialRequest request{povray_arguments(app), options.renders, options.povray, false};
+    // Kept, it is for `seams --serial`, which may ask for halo.
+    request.one_block = !options.out.empty();
     const ScratchFolder scratch("noise");
     const fs::path folder = options.out.empty() ? scratch.path() : make_folder(options.out);
-    const SceneAsked scene = ask_scene(options.povray, arguments, scratch.path());
-    const SerialRenderer renderer(options.povray, arguments, scratch.path());
-    const SerialRender reference = renderer.render("serial-default", {}, folder);
-    NoiseReport noise =
-        find_noise({renderer, reference, options.renders, scene.order_dependent, folder / "noise"});
-    compare_noise(noise, reference, {});
-
-    const ImageFormat format = ImageSource(reference.image).format();
-    json result = {{"format", "mpipov-noise"},
-                   {"version", 1},
-                   {"scene", scene.name},
-                   {"file", scene.file},
-                   {"arguments", arguments},
-                   {"image", typed_image_json(format)},
-                   {"versions", {{"mpipov", MPIPOV_VERSION}, {"povray", scene.povray_version}}},
-                   {"exact", noise.exact},
-                   {"noise", to_json(noise, folder)}};
+    const SerialSet set = render_serial_set(request, folder);
+    json result = to_json(set, request, folder);
     if (options.out.empty()) {
         // What is gone when the program ends has no name.
         for (auto& render : result["noise"].value("renders", json::array()))
             render["image"] = nullptr;
+        for (auto& reference : result["references"]) reference["image"] = nullptr;
     }
-    if (options.json != "-")
-        fmt::print("{}", to_table(noise, format.integer() ? "levels" : "values"));
+    const bool levels = ImageSource(set.reference().image).format().integer();
+    if (options.json != "-") fmt::print("{}", to_table(set.noise, levels ? "levels" : "values"));
     if (!options.json.empty()) write_json(options.json, result);
     if (!options.out.empty()) write_json((folder / "noise.json").string(), result);
     return Exit::ok;
@@ -68,7 +57,8 @@ Command add_noise_command(CLI::App& program) {
     app->add_option("--renders", options->renders, "how many renders beside the serial one")
         ->check(CLI::Range(fewest_noise_renders, 1000))
         ->capture_default_str();
-    app->add_option("--out", options->out, "keep the images here, and the results as noise.json")
+    app->add_option("--out", options->out,
+                    "keep the images here, and the results as noise.json: for seams --serial")
         ->type_name("DIR");
     app->add_option("--json", options->json, "write the results as JSON; - is standard output")
         ->type_name("FILE");

@@ -1,13 +1,9 @@
 #include "render_options.h"
 
-#include "povray_command.h"
-#include "probe.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 
 namespace mpipov {
 
@@ -57,19 +53,6 @@ std::vector<int> split_numbers(const std::string& option, const std::string& tex
     return numbers;
 }
 
-SceneAsked ask_scene(const std::string& povray, const std::vector<std::string>& arguments,
-                     const fs::path& scratch) {
-    SceneAsked scene;
-    scene.povray_version = povray_version(povray);
-    const Probe probe = run_probe({povray, quote_arguments(arguments), scratch / "probe", {}});
-    const ImageOptions& image = probe.result.image;
-    scene.file = image.input_file;
-    scene.name = fs::path(image.input_file).stem().string();
-    scene.order_dependent = probe.result.order_dependent;
-    scene.longest_side = std::max(image.width, image.height);
-    return scene;
-}
-
 fs::path make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
@@ -77,42 +60,6 @@ fs::path make_folder(const fs::path& folder) {
         throw Failure(Exit::file, fmt::format("cannot make the folder '{}': {}", folder.string(),
                                               error ? error.message() : "a file is in the way"));
     return fs::absolute(folder).lexically_normal();
-}
-
-NoiseReport find_noise(const NoiseSource& source) {
-    NoiseRequest request;
-    request.wanted = source.wanted;
-    request.order_dependent = source.order_dependent;
-    request.keep_blocks = sees_blocks(source.reference.report);
-    request.folder = source.folder;
-    request.told = [](const std::string& name) { fmt::print(stderr, "rendered {}\n", name); };
-    NoiseRenders found = render_noise(source.renderer, source.reference, request);
-    NoiseReport noise;
-    noise.exact = found.exact;
-    noise.tried = found.tried;
-    for (SerialRender& render : found.renders) noise.renders.push_back({std::move(render), {}});
-    if (found.exact)
-        noise.why_not = fmt::format(
-            "the scene does not depend on the order of rendering: {} serial renders in other "
-            "orders are the serial render bit for bit",
-            found.tried);
-    else if (static_cast<int>(noise.renders.size()) < fewest_noise_renders)
-        noise.why_not = fmt::format(
-            "the scene depends on the order of rendering, but only {} of {} other orders gave "
-            "another image: too few to measure noise (the image has few render blocks)",
-            noise.renders.size(), found.tried);
-    return noise;
-}
-
-void compare_noise(NoiseReport& noise, const SerialRender& reference,
-                   const std::optional<RunRecord>& run) {
-    if (noise.renders.empty()) return;
-    std::vector<fs::path> files{reference.image};
-    for (NoiseRender& render : noise.renders) {
-        files.push_back(render.render.image);
-        render.comparison = compare_images({reference.image, render.render.image, run});
-    }
-    if (!noise.floor) noise.floor = measure_noise(files);  // where seams lie says nothing to it
 }
 
 }  // namespace mpipov

@@ -32,8 +32,9 @@ std::string why_beyond(const StepTest& test) {
 Verdict judged(const Judgement& judgement) {
     if (!judgement.alarm())
         return {Verdict::Kind::within_noise, true,
-                fmt::format("no sample and no step is beyond what {} equally right renders show",
-                            judgement.quiet.renders)};
+                fmt::format("no sample and no step is beyond what {} equally right renders show "
+                            "(a step of {:.3g} more than theirs would be found)",
+                            judgement.quiet.renders, judgement.step.detectable)};
     std::string why;
     if (judgement.pixel.alarm()) why = why_beyond(judgement.pixel);
     if (judgement.step.alarm()) {

@@ -1,5 +1,6 @@
 #include "seams_command.h"
 
+#include "render_options.h"
 #include "seams_run.h"
 #include "shipped_file.h"
 
@@ -16,9 +17,9 @@ namespace mpipov {
 namespace {
 
 struct SeamsOptions {
-    std::string out, ranks = "1,2", schedule = "dynamic", shape = "columns",
-                     seams = "aligned,halo:2,plain", sections = "2,8,32", povray = "povray",
-                     mpiexec = "mpiexec";
+    std::string out, serial, ranks = "1,2", schedule = "dynamic", shape = "columns",
+                             seams = "aligned,halo:2,plain", sections = "2,8,32", povray = "povray",
+                             mpiexec = "mpiexec";
     int renders = default_noise_renders;
 };
 
@@ -73,6 +74,7 @@ Exit run(const CLI::App& app, const SeamsOptions& options) {
     request.seams = seams_of(options.seams);
     request.sections = split_numbers("--sections", options.sections);
     request.renders = options.renders;
+    request.serial = options.serial;
     request.povray = options.povray;
     request.mpiexec = options.mpiexec;
     request.folder = make_folder(options.out);
@@ -108,6 +110,10 @@ Command add_seams_command(CLI::App& program) {
                     "how many serial renders tell noise from damage, beside the reference")
         ->check(CLI::Range(fewest_noise_renders, 1000))
         ->capture_default_str();
+    app->add_option("--serial", options->serial,
+                    "take the serial renders from what noise --out left there, of the same scene, "
+                    "arguments and POV-Ray, instead of making them")
+        ->type_name("DIR");
     app->add_option("--povray", options->povray, "which POV-Ray to run")->capture_default_str();
     app->add_option("--mpiexec", options->mpiexec, "which mpiexec to run")->capture_default_str();
     app->footer(

@@ -104,6 +104,45 @@ TEST_F(RenderPrograms, NoiseOfANoisyScene) {
                            found["noise"]["renders"][0]["image"].get<std::string>()));
 }
 
+TEST_F(RenderPrograms, SerialRendersServeAgain) {
+    fs::copy_file(scene("effects/crand.pov"), path("crand.pov"));
+    const std::vector<std::string> scene_and_size{"crand.pov", "+W96", "+H64", "+A0.3", "+AM1"};
+    const auto call = [&](std::vector<std::string> arguments,
+                          const std::vector<std::string>& more) {
+        arguments.insert(arguments.begin() + 1, scene_and_size.begin(), scene_and_size.end());
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    };
+    ASSERT_EQ(call({"noise", "--out", "serial"}, {"--renders", "4"}), 0) << output_;
+    EXPECT_TRUE(fs::exists(path("serial/serial-oneblock.png")));
+
+    const std::vector<std::string> judge{"seams",  "--out",   "out",        "--serial",
+                                         "serial", "--ranks", "1",          "--sections",
+                                         "2",      "--seams", "halo,plain", "--renders"};
+    EXPECT_EQ(call(judge, {"4"}), 0) << output_;
+    EXPECT_THAT(output_, testing::Not(HasSubstr("rendering the serial reference")));
+    const json found = read("out/seams.json");
+    EXPECT_EQ(found["scene"], "crand");
+    EXPECT_EQ(found["references"]["oneblock"]["image"], "serial-oneblock.png");
+    EXPECT_EQ(found["noise"]["renders"].size(), 4U);
+    for (const json& one : found["cases"]) {
+        EXPECT_EQ(one["verdict"]["verdict"], "within noise");
+        EXPECT_LT(one["comparison"]["ssim"]["value"], 1);
+        EXPECT_GT(one["verdict"]["step_test"]["detectable"], 0);
+    }
+
+    EXPECT_EQ(call(judge, {"5"}), 2) << output_;
+    EXPECT_THAT(output_, HasSubstr("only 4 renders"));
+    EXPECT_EQ(call(judge, {"4", "+A0.2"}), 2) << output_;
+    EXPECT_THAT(output_, HasSubstr("other arguments"));
+    std::ofstream(path("crand.pov"), std::ios::app) << "// changed\n";
+    EXPECT_EQ(call(judge, {"4"}), 2) << output_;
+    EXPECT_THAT(output_, HasSubstr("has changed since"));
+    EXPECT_EQ(call({"seams", "--out", "out", "--serial", "none"}, {}), 4) << output_;
+    std::ofstream(path("serial/noise.json")) << "{}";
+    EXPECT_EQ(call(judge, {"4"}), 4) << output_;
+}
+
 TEST_F(RenderPrograms, UsageErrors) {
     EXPECT_EQ(run({"seams", "scene.pov"}), 2);
     EXPECT_EQ(run({"seams", "--out", "out"}), 2);

@@ -5,7 +5,7 @@
 #include "compare.h"
 #include "run_record.h"
 #include "seam_verdict.h"
-#include "serial_render.h"
+#include "serial_set.h"
 
 #include <nlohmann/json.hpp>
 
@@ -15,20 +15,6 @@
 #include <vector>
 
 namespace mpipov {
-
-struct NoiseRender {
-    SerialRender render;
-    // With the serial reference; with the first case's seams where there is one.
-    Comparison comparison;
-};
-
-struct NoiseReport {
-    std::string why_not;  // not empty: there is no noise, or too little of it was found
-    bool exact = false;
-    int tried = 0;  // variants rendered, those that came out alike included
-    std::vector<NoiseRender> renders;
-    std::optional<NoiseFloor> floor;  // of the reference and the renders
-};
 
 struct SeamsCase {
     std::string name;
@@ -53,22 +39,17 @@ struct SkippedCase {
 
 struct SeamsReport {
     std::filesystem::path folder;  // paths in the JSON are relative to it
-    std::string scene, file;
     std::vector<std::string> arguments;
     std::map<std::string, std::string> versions;
     bool complete = false;
     std::string failure;
     std::map<std::string, Effect> effects;
     std::optional<ImageFormat> image;
-    std::map<std::string, SerialRender> references;
-    std::optional<NoiseReport> noise;
+    std::optional<SerialSet> serial;  // none: it was not come so far
     std::vector<SeamsCase> cases;
     std::vector<SkippedCase> skipped;  // that cannot be: so many sections, so few columns
 };
 
-// image_json of json_parts.h, and the file type.
-nlohmann::json typed_image_json(const ImageFormat& format);
-nlohmann::json to_json(const NoiseReport& noise, const std::filesystem::path& folder);
 nlohmann::json to_json(const SeamsReport& report);
 
 std::string to_table(const NoiseReport& noise, const std::string& unit);

@@ -2,8 +2,8 @@
 
 #include "interrupt.h"
 #include "json_output.h"
+#include "render_options.h"
 #include "run_child.h"
-#include "scratch.h"
 
 #include <fmt/format.h>
 
@@ -18,15 +18,14 @@ namespace fs = std::filesystem;
 class SeamsRun {
   public:
     SeamsRun(const SeamsRequest& request, SeamsReport& report)
-        : request_(request),
-          report_(report),
-          renderer_(request.povray, request.arguments, scratch_.path()) {}
+        : request_(request), report_(report) {}
 
     Exit run() {
         save();
         try {
             prepare();
             for (SeamsCase& one : planned()) run_case(one);
+            add_ssim();
         } catch (const Failure& failure) {
             report_.failure = failure.what();
             save();
@@ -41,31 +40,37 @@ class SeamsRun {
     void save() const { write_json((request_.folder / "seams.json").string(), to_json(report_)); }
 
     void prepare() {
-        scene_ = ask_scene(request_.povray, request_.arguments, scratch_.path());
-        report_.versions["povray"] = scene_.povray_version;
-        report_.scene = scene_.name;
-        report_.file = scene_.file;
-        const SerialRender& reference = add_reference("default", {});
-        report_.image = ImageSource(reference.image).format();
         const auto halo = [](const SeamKind& kind) { return kind.seams == Seams::halo; };
-        if (std::any_of(request_.seams.begin(), request_.seams.end(), halo))
-            add_reference("oneblock", {fmt::format("+BS{}", scene_.longest_side)});
-        report_.noise = find_noise({renderer_, report_.references.at("default"), request_.renders,
-                                    scene_.order_dependent, request_.folder / "noise"});
-        compare_noise(*report_.noise, report_.references.at("default"), {});
-        if (report_.noise->why_not.empty()) {
-            std::vector<fs::path> renders{report_.references.at("default").image};
-            for (const NoiseRender& render : report_.noise->renders)
+        const SerialRequest wanted{request_.arguments, request_.renders, request_.povray,
+                                   std::any_of(request_.seams.begin(), request_.seams.end(), halo)};
+        if (request_.serial.empty()) {
+            report_.serial = render_serial_set(wanted, request_.folder);
+        } else {
+            report_.serial = read_serial_set(wanted, request_.serial);
+            for (auto& [name, render] : report_.serial->references) bring_here(render.image);
+        }
+        const SerialSet& serial = *report_.serial;
+        report_.versions["povray"] = serial.scene.povray_version;
+        report_.image = ImageSource(serial.reference().image).format();
+        if (serial.noise.why_not.empty()) {
+            std::vector<fs::path> renders{serial.reference().image};
+            for (const NoiseRender& render : serial.noise.renders)
                 renders.push_back(render.render.image);
             judge_.emplace(renders);
         }
         save();
     }
 
-    const SerialRender& add_reference(const std::string& name,
-                                      const std::vector<std::string>& more) {
-        fmt::print(stderr, "rendering the serial reference: {}\n", name);
-        return report_.references[name] = renderer_.render("serial-" + name, more, request_.folder);
+    // The report shows only what lies in its own folder.
+    void bring_here(fs::path& image) const {
+        const fs::path here = request_.folder / image.filename();
+        std::error_code error;
+        if (fs::equivalent(image, here, error)) return;
+        fs::copy_file(image, here, fs::copy_options::overwrite_existing, error);
+        if (error)
+            throw Failure(Exit::file,
+                          fmt::format("cannot write '{}': {}", here.string(), error.message()));
+        image = here;
     }
 
     std::vector<SeamsCase> planned() const {
@@ -84,10 +89,16 @@ class SeamsRun {
                             one.seams = kind.seams;
                             one.halo = kind.halo;
                             one.sections = sections;
-                            one.reference = kind.seams == Seams::halo ? "oneblock" : "default";
+                            one.reference = reference_for(kind.seams);
                             cases.push_back(one);
                         }
         return cases;
+    }
+
+    // Halo reproduces the render in one block, which is another where antialiasing sees blocks.
+    std::string reference_for(Seams seams) const {
+        const bool other = seams == Seams::halo && report_.serial->references.contains("oneblock");
+        return other ? "oneblock" : "default";
     }
 
     void run_case(SeamsCase& one) {
@@ -162,27 +173,48 @@ class SeamsRun {
             throw Failure(Exit::file, error.what());
         }
         one.image = one.run->output;
+        SerialSet& serial = *report_.serial;
         if (report_.effects.empty()) {
             report_.effects = one.run->plan.effects;
-            compare_noise(*report_.noise, report_.references.at("default"), one.run);
+            compare_noise(serial, one.run);
         }
-        const SerialRender& reference = report_.references.at(one.reference);
+        const SerialRender& reference = serial.references.at(one.reference);
         one.comparison = compare_images({reference.image, one.image, one.run});
         const bool blocks = sees_blocks(reference.report);
         if (judge_) {
             JudgeRequest request{one.image, *one.run, {}};
-            if (one.seams == Seams::halo && blocks) request.own_reference = reference.image;
+            if (one.reference != "default") request.own_reference = reference.image;
             one.judgement = judge_->judge(request);
         }
         one.verdict = decide({one.comparison->identical(), one.comparison->metrics.counts.differing,
-                              one.seams, blocks, report_.noise->exact, one.judgement});
+                              one.seams, blocks, serial.noise.exact, one.judgement});
+    }
+
+    // At the end and all at once. Missing it is told in its place, and no reason for no verdict.
+    void add_ssim() {
+        std::vector<SsimPair> pairs;
+        std::vector<Comparison*> differing;
+        for (SeamsCase& one : report_.cases) {
+            if (!one.comparison) continue;
+            if (one.comparison->identical()) {
+                one.comparison->ssim = ssim_of_identical();
+                continue;
+            }
+            pairs.push_back({one.comparison->a, one.comparison->b, {}});
+            differing.push_back(&*one.comparison);
+        }
+        try {
+            const std::vector<Ssim> found = compute_ssim(pairs, 1);
+            for (std::size_t i = 0; i < found.size(); ++i) differing[i]->ssim = found[i];
+        } catch (const Failure& failure) {
+            if (failure.code() == Exit::interrupted) throw;
+            for (Comparison* comparison : differing)
+                comparison->ssim = Ssim{{}, {}, failure.what()};
+        }
     }
 
     const SeamsRequest& request_;
     SeamsReport& report_;
-    ScratchFolder scratch_{"seams"};
-    SerialRenderer renderer_;
-    SceneAsked scene_;
     std::optional<SeamJudge> judge_;
     Exit outcome_ = Exit::ok;
 };

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "failure.h"
-#include "render_options.h"
+#include "seams_report.h"
 #include "section.h"
 
 #include <filesystem>
@@ -27,6 +27,7 @@ struct SeamsRequest {
     std::vector<SeamKind> seams;
     std::vector<int> sections{2, 8, 32};
     int renders = default_noise_renders;
+    std::filesystem::path serial;  // of `noise --out`; empty: serial renders are made
     std::string povray = "povray", mpiexec = "mpiexec";
     std::filesystem::path mpipov;  // the program
 };

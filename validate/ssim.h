@@ -14,9 +14,17 @@ struct Ssim {
     std::string reason;               // why there is no value, or why it was not computed
 };
 
-// Both images have the same size, channels and depth. `peak` is the dynamic range L, where full
-// scale is 1. `map`: file to get the map, 1 channel, same size; empty: none. Throws Failure.
-Ssim compute_ssim(const std::filesystem::path& a, const std::filesystem::path& b, double peak,
-                  const std::filesystem::path& map);
+struct SsimPair {
+    std::filesystem::path a, b;
+    std::filesystem::path map;  // file to get the map, 1 channel, same size; empty: none
+};
+
+// Of all pairs in one go: Python with its libraries takes longer to start than to work on small
+// images. The images of a pair have the same size, channels and depth. `peak` is the dynamic range
+// L, where full scale is 1. Throws Failure.
+std::vector<Ssim> compute_ssim(const std::vector<SsimPair>& pairs, double peak);
+
+// Of identical images, without computing it.
+Ssim ssim_of_identical();
 
 }  // namespace mpipov

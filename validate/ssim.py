@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
-"""Structural similarity of two images handed over as raw pixels.
+"""Structural similarity of pairs of images handed over as raw pixels.
 
-    ssim.py REQUEST.json [--map FILE] [--json FILE]
+    ssim.py REQUESTS.json [--json FILE]
 
-REQUEST.json: {"width", "height", "channels", "type" (u1, u2, f4, f8), "full_scale",
-"data_range", "colour" (indices of the channels that are not alpha), "a", "b"}; a and b name files
-of rows of interleaved pixels in native byte order, relative to the request. Values are divided by
-full_scale and compared with L = data_range.
+REQUESTS.json is a list of {"width", "height", "channels", "type" (u1, u2, f4, f8), "full_scale",
+"data_range", "colour" (indices of the channels that are not alpha), "a", "b", "map"}; a and b name
+files of rows of interleaved pixels in native byte order, relative to the request. Values are
+divided by full_scale and compared with L = data_range. The file that map names, if it is not null,
+gets the map as rows of native float32, the mean over the colour channels.
 
-Prints {"ssim": x, "per_channel": [...]}: per channel the mean over all pixels whose window lies in
-the image, and the mean of these over the colour channels; or {"ssim": null, "reason": text}.
---map gets the map as rows of native float32, the mean over the colour channels.
+Prints a list, for each request {"ssim": x, "per_channel": [...]}: per channel the mean over all
+pixels whose window lies in the image, and the mean of these over the colour channels; or
+{"ssim": null, "reason": text}.
 
 The settings are those with which scikit-image matches the implementation of Wang, Bovik, Sheikh and
 Simoncelli (IEEE Transactions on Image Processing 13(4), 2004): Gaussian weights, sigma 1.5 (a
@@ -19,6 +20,7 @@ bands of rows that overlap by the window's radius, so memory does not grow with 
 """
 
 import argparse
+import contextlib
 import json
 import pathlib
 import sys
@@ -74,24 +76,24 @@ def ssim(a, b, data_range, full_scale=1, colour=None, rows=BAND_ROWS, map_file=N
     return {"ssim": float(per_channel[colour].mean()), "per_channel": per_channel.tolist()}
 
 
+def answer(request, folder):
+    shape = (request["height"], request["width"], request["channels"])
+    a, b = (np.memmap(folder / request[name], dtype=request["type"], mode="r", shape=shape)
+            for name in ("a", "b"))
+    wanted = request.get("map")
+    with (folder / wanted).open("wb") if wanted else contextlib.nullcontext() as map_file:
+        return ssim(a, b, request["data_range"], request["full_scale"], request["colour"],
+                    map_file=map_file)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("request", type=pathlib.Path)
-    parser.add_argument("--map", type=pathlib.Path)
+    parser.add_argument("requests", type=pathlib.Path)
     parser.add_argument("--json", type=pathlib.Path)
     options = parser.parse_args()
-    request = json.loads(options.request.read_text())
-    shape = (request["height"], request["width"], request["channels"])
-    a, b = (np.memmap(options.request.parent / request[name], dtype=request["type"], mode="r",
-                      shape=shape) for name in ("a", "b"))
-    map_file = options.map.open("wb") if options.map else None
-    try:
-        result = ssim(a, b, request["data_range"], request["full_scale"], request["colour"],
-                      map_file=map_file)
-    finally:
-        if map_file is not None:
-            map_file.close()
-    text = json.dumps(result)
+    folder = options.requests.parent
+    text = json.dumps([answer(request, folder)
+                       for request in json.loads(options.requests.read_text())])
     if options.json:
         options.json.write_text(text + "\n")
     else:

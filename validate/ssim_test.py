@@ -80,14 +80,15 @@ class Ssim(unittest.TestCase):
             b.tofile(folder / "b.raw")
             height, width, channels = a.shape
             request |= {"height": height, "width": width, "channels": channels,
-                        "a": "a.raw", "b": "b.raw", "colour": list(range(channels))}
-            (folder / "request.json").write_text(json.dumps(request))
+                        "a": "a.raw", "b": "b.raw", "map": "map.raw",
+                        "colour": list(range(channels))}
+            (folder / "requests.json").write_text(json.dumps([request]))
             script = pathlib.Path(ssim.__file__)
             output = subprocess.run(
-                [sys.executable, script, folder / "request.json", "--map", folder / "map.raw"],
+                [sys.executable, script, folder / "requests.json"],
                 check=True, capture_output=True, text=True).stdout
             values = np.fromfile(folder / "map.raw", dtype=np.float32).reshape(height, width)
-            return json.loads(output), values
+            return json.loads(output)[0], values
 
     def test_the_program_with_16_bit_pixels(self):
         a, b = ((image * 65535).astype(np.uint16) for image in noisy_pair(300, 40))
@@ -98,6 +99,26 @@ class Ssim(unittest.TestCase):
             sigma=1.5, use_sample_covariance=False, full=True)
         self.assertAlmostEqual(found["ssim"], expected, places=12)
         np.testing.assert_allclose(values, map_expected.mean(axis=2), atol=1e-6)
+
+    def test_the_program_answers_each_request_in_its_place(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            requests, expected = [], []
+            for index, size in enumerate(((20, 30), (5, 30), (30, 20))):
+                a, b = (np.ascontiguousarray(image) for image in noisy_pair(*size))
+                a.tofile(folder / f"{index}.a")
+                b.tofile(folder / f"{index}.b")
+                requests.append({"height": a.shape[0], "width": a.shape[1], "channels": a.shape[2],
+                                 "type": "f8", "full_scale": 1, "data_range": 1.0, "map": None,
+                                 "colour": list(range(a.shape[2])), "a": f"{index}.a",
+                                 "b": f"{index}.b"})
+                expected.append(ssim.ssim(a, b, 1.0)["ssim"])
+            (folder / "requests.json").write_text(json.dumps(requests))
+            output = subprocess.run([sys.executable, pathlib.Path(ssim.__file__),
+                                     folder / "requests.json"],
+                                    check=True, capture_output=True, text=True).stdout
+            self.assertEqual([found["ssim"] for found in json.loads(output)], expected)
+            self.assertIsNone(expected[1])
 
 
 if __name__ == "__main__":

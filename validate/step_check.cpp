@@ -12,8 +12,8 @@ constexpr double smallest_deviation_of_log = 0.1;  // of A: 10 %, less is luck w
 using Steps = std::vector<std::vector<double>>;
 
 struct Scores {
-    std::vector<double> expected, z;  // per column; NaN: cannot be judged
-    double log_mean = 0;              // log A over the seams
+    std::vector<double> expected, sigma, z;  // per column; z NaN: cannot be judged
+    double log_mean = 0;                     // log A over the seams
     bool seams = false;
 };
 
@@ -29,7 +29,8 @@ Scores score(const StepTable& table, const Steps& renders, std::span<const doubl
         const StepTable::Column& column = table.columns[k];
         const double off = std::abs(judged[k] - over.mean());
         scores.expected.push_back(over.mean());
-        scores.z.push_back(off / std::sqrt((over.variance() + column.floor) * factor));
+        scores.sigma.push_back(std::sqrt((over.variance() + column.floor) * factor));
+        scores.z.push_back(off / scores.sigma.back());
         if (column.seam < 0 || !std::isfinite(scores.z.back())) continue;
         // A of a combined image, of more noise, is brought to the scale of one render's.
         sum += column.weight * off * std::sqrt((1 + 1 / n) / factor);
@@ -61,9 +62,12 @@ StepTest judge(const StepTable& table, const Scores& judged, const std::vector<S
                int renders) {
     StepTest test;
     test.renders = renders;
+    std::vector<double> sigmas;
     for (std::size_t k = 0; k < table.columns.size(); ++k)
-        if (table.columns[k].seam >= 0 && !std::isnan(judged.z[k])) ++test.tests;
-    if (test.tests == 0) return test;
+        if (table.columns[k].seam >= 0 && !std::isnan(judged.z[k]))
+            sigmas.push_back(judged.sigma[k]);
+    if (sigmas.empty()) return test;
+    test.tests = static_cast<int>(sigmas.size());
 
     TailSample tail;
     for (const Scores& scores : quiet)
@@ -72,6 +76,9 @@ StepTest judge(const StepTable& table, const Scores& judged, const std::vector<S
     test.alpha_sidak = sidak(test.alpha / 2, test.tests);
     test.critical =
         critical_value(tail, test.alpha_sidak, t_quantile(test.alpha_sidak / 2, renders - 1));
+    const auto middle = sigmas.begin() + test.tests / 2;
+    std::nth_element(sigmas.begin(), middle, sigmas.end());
+    test.detectable = test.critical * *middle;
     for (std::size_t k = 0; k < table.columns.size(); ++k) {
         const double z = judged.z[k];
         if (std::isnan(z)) continue;

@@ -63,6 +63,9 @@ struct StepTest {
     std::optional<StepTable::Column> at;
     double step = 0, expected = 0;  // there
     int beyond = 0, controls_beyond = 0;
+    // The power of the test: a step this far from what is expected would be found at half of the
+    // seams and channels (their median), in stored units.
+    double detectable = 0;
 
     struct Together {
         double mean = 0;      // A

@@ -1,0 +1,83 @@
+// The serial renders of a scene that images in sections are judged by: the references, and others
+// that are equally right. A folder of them (`noise --out`) serves any number of judgements
+// (`seams --serial`).
+#pragma once
+
+#include "compare.h"
+#include "noise_floor.h"
+#include "run_record.h"
+#include "serial_render.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mpipov {
+
+inline constexpr int fewest_noise_renders = 3, default_noise_renders = 12;
+
+// What is known of the scene before anything of it is rendered as a whole.
+struct SceneAsked {
+    std::string povray_version;
+    std::string name, file;  // file: as the user gave it
+    std::string sha1;        // of the file
+    bool order_dependent = false;
+    int longest_side = 0;  // pixels
+};
+
+struct NoiseRender {
+    SerialRender render;
+    // With the serial reference; with the first case's seams where there is one.
+    Comparison comparison;
+};
+
+struct NoiseReport {
+    std::string why_not;  // not empty: there is no noise, or too little of it was found
+    bool exact = false;
+    int tried = 0;  // variants rendered, those that came out alike included
+    std::vector<NoiseRender> renders;
+    std::optional<NoiseFloor> floor;  // of the reference and the renders
+};
+
+struct SerialRequest {
+    std::vector<std::string> arguments;   // the scene and POV-Ray's own, as the user gave them
+    int renders = default_noise_renders;  // wanted, beside the reference
+    std::string povray = "povray";
+    bool one_block = false;  // the second reference, where antialiasing sees blocks
+};
+
+struct SerialSet {
+    SceneAsked scene;
+    // "default": POV-Ray's blocks. "oneblock": all in one, the paper's scan line; only where
+    // antialiasing of method 1 sees the difference.
+    std::map<std::string, SerialRender> references;
+    NoiseReport noise;  // compared with "default", without seams
+
+    const SerialRender& reference() const { return references.at("default"); }
+};
+
+// Throws Failure as run_probe and SerialRenderer::render do.
+SerialSet render_serial_set(const SerialRequest& request, const std::filesystem::path& folder);
+
+// Paths in the JSON are relative to `folder`.
+nlohmann::json serial_json(const SerialRender& render, const std::filesystem::path& folder);
+nlohmann::json to_json(const NoiseReport& noise, const std::filesystem::path& folder);
+// noise.json.
+nlohmann::json to_json(const SerialSet& set, const SerialRequest& request,
+                       const std::filesystem::path& folder);
+
+// What an earlier render_serial_set left in `folder`; that included files are the same is not
+// checked. Throws Failure(Exit::usage) where that is of
+// another scene file, other arguments, another POV-Ray or of fewer renders than `request` asks for;
+// Failure(Exit::file) where it cannot be read.
+SerialSet read_serial_set(const SerialRequest& request, const std::filesystem::path& folder);
+
+// Compares the noise renders with the reference, with the seams of `run` where there is one, and
+// measures the floor where it is not known yet.
+void compare_noise(SerialSet& set, const std::optional<RunRecord>& run);
+
+}  // namespace mpipov
