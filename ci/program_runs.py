@@ -107,6 +107,13 @@ def require_success(done):
     return done
 
 
+def measurement(name, value):
+    """A number of the test's, as CTest takes it up into its own record; none: not told."""
+    if value is not None:
+        print(f'<CTestMeasurement type="numeric/double" name="{name}">{value:.10g}'
+              "</CTestMeasurement>")
+
+
 def png_chunks(file):
     """All that a PNG file says of its pixels besides the pixels: {type: bytes}, IHDR included."""
     data = Path(file).read_bytes()

@@ -1,0 +1,45 @@
+"""The scenes of our own, as scenes/scenes.json lists them; for the test scripts beside this file."""
+
+import json
+import re
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from program_runs import ROOT
+
+FOLDER = ROOT / "scenes"
+
+
+@dataclass(frozen=True)
+class Scene:
+    name: str  # with a dot for the slash, as tests are called: effects.fog
+    file: Path
+    size: tuple
+    options: tuple
+    effects: dict
+    order_dependent: bool
+
+    def arguments(self, *more):
+        """What POV-Ray, mpipov and mpipov-validate are told alike."""
+        width, height = self.size
+        return [self.file, f"+W{width}", f"+H{height}", *self.options, *more]
+
+    def sees_sections(self):
+        """Antialiasing of method 1, POV-Ray's default, looks at the pixels next to its own."""
+        on = any(re.match(r"\+A(?!M)", option) for option in self.options)
+        return on and "+AM2" not in self.options
+
+
+def all_scenes():
+    listed = json.loads((FOLDER / "scenes.json").read_text())["scenes"]
+    return [Scene(one["name"].replace("/", "."), FOLDER / one["file"], tuple(one["size"]),
+                  tuple(one["options"]), one["effects"], one["order_dependent"])
+            for one in listed]
+
+
+def scene_named(name):
+    for scene in all_scenes():
+        if scene.name == name:
+            return scene
+    sys.exit(f"no scene '{name}' in scenes.json: names are as in effects.fog")
