@@ -11,7 +11,9 @@ SCHEDULE.npRANKS.SHAPE.SEAMS.AA, the reference of a scene AA.KIND, where KIND is
     exactness.py case SCENE CASE       render in sections and compare; CASE:differs: must differ
     exactness.py pin SCENE             render an order-dependent scene on its grid (a fixture)
     exactness.py pinned SCENE CASE     render it with other ranks or schedule: the same bits?
-    exactness.py matrix SCENE [--only KEY=VALUE,...]   the whole product; writes SCENE.json
+    exactness.py matrix SCENE [--only KEY=VALUE,...] [--resume]
+                                       the whole product; writes SCENE.json; --resume: renders only
+                                       the cases that an interrupted run left out
     exactness.py summary FILE...       a table of such files
 
 Exit codes: 0 ok, 1 a difference where none may be, 2 usage, 77 the scenes are not installed.
@@ -201,9 +203,13 @@ def matrix_command(options):
     scene = scene_named(options.scene, "exact")
     only = {key: values.split(",") for key, values in
             (given.split("=") for given in options.only)}
-    references, results, broken = {}, [], 0
+    references = {}
     file = options.work / f"{scene['name']}.json"
+    results = earlier_results(file, scene) if options.resume else []
+    known = {result["case"] for result in results}
     for case in whole_product(only):
+        if case.name() in known:
+            continue
         name = case.reference()
         if name not in references:
             references[name] = render_reference(options, scene, name)
@@ -211,10 +217,19 @@ def matrix_command(options):
                                 options.work / scene["name"] / case.name())
         results.append(result)
         write_results(file, scene, results)  # after each: an interruption loses one
-        broken += result["promise"] == "exact" and not result["identical"]
         print(describe(result), flush=True)
+    broken = any(result["promise"] == "exact" and not result["identical"] for result in results)
     print(f"{len(results)} cases in {file}")
     return 1 if broken or not results else 0
+
+
+def earlier_results(file, scene):
+    if not file.exists():
+        return []
+    matrix = json.loads(file.read_text())
+    if matrix["size"] != scene["size"]:
+        sys.exit(f"exactness: '{file}' is of another size, {matrix['size']}: remove it")
+    return matrix["results"]
 
 
 def pinned_matrix(options):
@@ -296,6 +311,8 @@ def main():
         if name == "matrix":
             sub.add_argument("--only", action="append", default=[], metavar="KEY=VALUE,...",
                              help="a part of the product: schedule, ranks, shape, seams, aa")
+            sub.add_argument("--resume", action="store_true",
+                             help="keep what SCENE.json has, render the rest")
         if name == "summary":
             sub.add_argument("files", nargs="+", metavar="FILE")
         sub.set_defaults(command=command)
