@@ -19,6 +19,7 @@ class Scene:
     options: tuple
     effects: dict
     order_dependent: bool
+    serial_seconds: float  # of CPU, at that size
 
     def arguments(self, *more):
         """What POV-Ray, mpipov and mpipov-validate are told alike."""
@@ -34,12 +35,13 @@ class Scene:
 def all_scenes():
     listed = json.loads((FOLDER / "scenes.json").read_text())["scenes"]
     return [Scene(one["name"].replace("/", "."), FOLDER / one["file"], tuple(one["size"]),
-                  tuple(one["options"]), one["effects"], one["order_dependent"])
+                  tuple(one["options"]), one["effects"], one["order_dependent"],
+                  one["serial_seconds"])
             for one in listed]
 
 
-def scene_named(name):
-    for scene in all_scenes():
+def scene_named(name, scenes=None):
+    for scene in scenes or all_scenes():
         if scene.name == name:
             return scene
     sys.exit(f"no scene '{name}' in scenes.json: names are as in effects.fog")

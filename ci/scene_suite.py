@@ -21,7 +21,7 @@ Exit codes: 0 ok, 1 a verdict is not as promised, 2 usage.
 import json
 import re
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from program_runs import (TestFailure, argument_parser, fresh_folder, measurement, programs_of,
                           report, run)
@@ -29,7 +29,8 @@ from scene_list import all_scenes, scene_named
 
 SHAPES = ("columns", "rows", "tiles")
 SCHEDULES = ("static", "dynamic")
-MOST_RANKS = 3
+RANKS = (1, 2, 1, 3)  # a test with more than one has the machine to itself
+MOST_SECONDS = 2  # of CPU: scenes that take longer are rendered at half their size
 BLOCK = 32  # edge of POV-Ray's render blocks: aligned sections are made of them
 RENDERS = 12  # serial renders that tell a scene's noise
 # The fewer renders, the more damage passes for noise: more of the scene that mutations.py damages.
@@ -60,16 +61,23 @@ class Case:
         return {f"{self.name()}.{self.shape}.{kind}.g{self.sections}" for kind in self.seams}
 
 
+def suite_scenes():
+    def half(scene):
+        return replace(scene, size=tuple(side // 2 for side in scene.size))
+
+    return [half(scene) if scene.serial_seconds > MOST_SECONDS else scene
+            for scene in all_scenes()]
+
+
 def cases_of(scene):
     """One a schedule. Ranks and shape go round with the scene's place in the list."""
-    index = all_scenes().index(scene)
+    index = suite_scenes().index(scene)
     seams = ("aligned",) if scene.order_dependent or scene.sees_sections() \
         else ("aligned", "plain")
     cases = []
     for turn, schedule in enumerate(SCHEDULES):
-        ranks = 1 + (index + turn) % MOST_RANKS
-        # One further each time the ranks have gone round: else each would meet one shape only.
-        shape = SHAPES[(index + index // MOST_RANKS) % len(SHAPES)]
+        ranks = RANKS[(index + turn) % len(RANKS)]
+        shape = SHAPES[index % len(SHAPES)]
         across, down = (-(-side // BLOCK) for side in scene.size)
         most = {"columns": across, "rows": down, "tiles": across * down}[shape]
         # More sections than ranks with dynamic, so that there is something to hand out.
@@ -118,7 +126,7 @@ def begin_command(options):
 
 
 def serial_command(options):
-    scene = scene_named(options.scene)
+    scene = scene_named(options.scene, suite_scenes())
     folder = fresh_folder(serial_folder(options, scene))
     try:
         render_serially(options, scene, folder)
@@ -145,7 +153,7 @@ def render_serially(options, scene, folder):
 
 
 def case_command(options):
-    scene = scene_named(options.scene)
+    scene = scene_named(options.scene, suite_scenes())
     case = next((one for one in cases_of(scene) if one.name() == options.name), None)
     if case is None:
         sys.exit(f"scene_suite: no case '{options.name}' of {scene.name}: see scene_suite.py list")
@@ -259,7 +267,7 @@ def failed_scene_command(options):
 
 def list_command(_options):
     """One test a line: kind, scene, case, ranks."""
-    for scene in all_scenes():
+    for scene in suite_scenes():
         print(f"serial {scene.name} - 1")
         for case in cases_of(scene):
             print(f"case {scene.name} {case.name()} {case.ranks}")
