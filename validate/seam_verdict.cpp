@@ -80,8 +80,10 @@ Verdict decide(const VerdictRequest& request) {
                 found +
                     ": antialiasing of method 1 can see farther than the halo, which comes "
                     "close and promises no more"};
-    return {Verdict::Kind::differs, false,
-            found + ", where the scene does not depend on the order of rendering and none may"};
+    return {
+        Verdict::Kind::differs, false,
+        found +
+            ", where the scene hardly depends on the order of rendering, if at all, and none may"};
 }
 
 }  // namespace mpipov

@@ -22,7 +22,8 @@ struct VerdictRequest {
     long long differing = 0;  // pixels
     Seams seams = Seams::aligned;
     bool sees_blocks = false;  // antialiasing of method 1, see serial_render.h
-    bool exact_scene = false;  // its pixels do not depend on the order of rendering
+    // Its pixels do not depend on the order of rendering, but for few: is_exact (serial_set.h).
+    bool exact_scene = false;
     std::optional<Judgement> judgement;
 };
 

@@ -187,7 +187,7 @@ class SeamsRun {
             one.judgement = judge_->judge(request);
         }
         one.verdict = decide({one.comparison->identical(), one.comparison->metrics.counts.differing,
-                              one.seams, blocks, serial.noise.exact, one.judgement});
+                              one.seams, blocks, is_exact(serial.noise), one.judgement});
     }
 
     // At the end and all at once. Missing it is told in its place, and no reason for no verdict.

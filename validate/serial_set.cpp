@@ -87,6 +87,12 @@ std::string mismatch(const json& j, const SerialRequest& request) {
 
 }  // namespace
 
+bool is_exact(const NoiseReport& noise) {
+    constexpr long long one_in = 1000;
+    return noise.exact || (!noise.why_not.empty() && noise.floor &&
+                           noise.floor->noisy * one_in <= noise.floor->samples);
+}
+
 SerialSet render_serial_set(const SerialRequest& request, const fs::path& folder) {
     const ScratchFolder scratch("serial");
     SerialSet set;

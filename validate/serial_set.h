@@ -60,6 +60,10 @@ struct SerialSet {
     const SerialRender& reference() const { return references.at("default"); }
 };
 
+// No pixel depends on the order of rendering, or so few of them (one in a thousand) and so seldom
+// that there is no noise to judge by: POV-Ray's shadow cache does that (docs/povray.md).
+bool is_exact(const NoiseReport& noise);
+
 // Throws Failure as run_probe and SerialRenderer::render do.
 SerialSet render_serial_set(const SerialRequest& request, const std::filesystem::path& folder);
 
