@@ -1,4 +1,4 @@
-"""The scenes of our own, as scenes/scenes.json lists them; for the test scripts beside this file."""
+"""The scenes of our own, as scenes.json lists them; for the test scripts beside this file."""
 
 import json
 import re
