@@ -74,7 +74,7 @@ SerialRender SerialRenderer::render(const std::string& name, const std::vector<s
     render.wall_seconds = result.wall_seconds;
     render.cpu_seconds = result.cpu_seconds;
     render.report = parse_report(output);
-    const fs::path image = find_image(place);
+    const fs::path image = find_image(place / "image");
     render.image = folder / (name + image.extension().string());
     move_file(image, render.image);
     fs::remove_all(place, error);

@@ -11,6 +11,8 @@ void block_interrupts() {
     sigemptyset(&set);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, signal);
     pthread_sigmask(SIG_BLOCK, &set, nullptr);
+    // A reader of our messages that goes away (`| head`) must not leave temporary files either.
+    std::signal(SIGPIPE, SIG_IGN);
 }
 
 bool interrupted() {

@@ -1,5 +1,6 @@
 // SIGINT, SIGTERM and SIGHUP, kept pending and asked for between two steps of the work, so that
-// temporary files are removed on the way out and no handler needs global state.
+// temporary files are removed on the way out and no handler needs global state. SIGPIPE is ignored:
+// writing fails instead.
 #pragma once
 
 namespace mpipov {

@@ -138,6 +138,11 @@ int run(const std::vector<std::string>& arguments, int rank) {
     return 0;
 }
 
+// Does not throw where nobody listens.
+void complain(const std::string& what) {
+    std::fputs(fmt::format("mpipov: {}\n", what).c_str(), stderr);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -153,10 +158,10 @@ int main(int argc, char** argv) {
         code = run(std::vector<std::string>(argv + 1, argv + argc), rank);
     } catch (const Failure& failure) {
         // Of what every rank finds out by itself, one says it.
-        if (rank == 0) fmt::print(stderr, "mpipov: {}\n", failure.what());
+        if (rank == 0) complain(failure.what());
         code = static_cast<int>(failure.code());
     } catch (const std::exception& error) {
-        fmt::print(stderr, "mpipov: rank {}: {}\n", rank, error.what());
+        complain(fmt::format("rank {}: {}", rank, error.what()));
         code = static_cast<int>(Exit::interrupted);
     }
     MPI_Finalize();

@@ -28,7 +28,7 @@ std::vector<std::string> split_lines(std::string_view text) {
 // How POV-Ray begins a message, a heading or an entry of a table.
 bool begins_anew(const std::string& line) {
     for (const std::string_view start : {"File '", "Parse ", "Possible ", "Fatal error", "Render",
-                                         "POV-Ray ", "====", "----", "  "})
+                                         "POV-Ray ", "Parser Options", "====", "----", "  "})
         if (line.rfind(start, 0) == 0) return true;
     return false;
 }
@@ -64,19 +64,21 @@ std::optional<std::string> value_after(const std::string& line, std::string_view
 }
 
 // "out.png, 24 bpp PNG" | "out.exr, 48 bpp with alpha EXR" | "out.png, grayscale PNG" |
-// "out.jpg, 24 bpp, quality 85% JPEG" | "out.tga, 24 bpp RLE Targa"
+// "out.jpg, 24 bpp, quality 85% JPEG" | "out.tga, 24 bpp RLE Targa" |
+// "out.jpg, 32 bpp, quality 85% with alpha JPEG"
 void parse_output_line(const std::string& value, ImageOptions& options) {
     static const std::regex shape(
-        R"(^(.*), (?:(\d+) bpp|grayscale)( with alpha)?(?:, quality (\d+)%)? (RLE )?(\S+)$)");
+        R"(^(.*), (?:(\d+) bpp|grayscale)(?:, quality (\d+)%)?( with alpha)?(?:, quality (\d+)%)? )"
+        R"((RLE )?(\S+)$)");
     std::smatch match;
     if (!std::regex_match(value, match, shape)) return;
     options.to_standard_output = match[1] == "stdout";
     options.output_file = match[1];
     options.bits_per_pixel = to_int(match[2]);
-    options.alpha = match[3].matched;
-    options.jpeg_quality = to_int(match[4]);
-    options.rle = match[5].matched;
-    options.type = match[6];
+    options.alpha = match[4].matched;
+    options.jpeg_quality = to_int(match[3].matched ? match[3] : match[5]);
+    options.rle = match[6].matched;
+    options.type = match[7];
 }
 
 // The time in brackets of "  Parse Time:   0 hours  0 minutes  0 seconds (0.014 seconds)".

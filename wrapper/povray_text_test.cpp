@@ -83,6 +83,7 @@ TEST_P(PovrayTextOutput, IsRead) {
 INSTANTIATE_TEST_SUITE_P(
     Types, PovrayTextOutput,
     testing::Values(OutputCase{"jpeg", "out.jpg", "JPEG", 24, false, false, 60},
+                    OutputCase{"jpeg_alpha", "out.jpg", "JPEG", 32, true, false, 60},
                     OutputCase{"exr_alpha", "out.exr", "EXR", 32, true, false, 0},
                     OutputCase{"grayscale", "out.png", "PNG", 0, false, false, 0},
                     OutputCase{"targa_rle", "out.tga", "Targa", 24, false, true, 0},

@@ -164,7 +164,7 @@ class ProbeLaunches {
                           launch.child.ended() && launch.child.result().timed_out
                               ? "POV-Ray did not end a small render in time (--timeout)"
                               : fmt::format("POV-Ray: {}", parse_error(launch.child.output())));
-        return find_image(launch.folder);
+        return find_image(launch.folder / "probe");
     }
 
     void sleep() {

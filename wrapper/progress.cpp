@@ -31,6 +31,12 @@ std::string progress_line(double fraction, int sections_done, int sections, doub
     return line;
 }
 
+void ProgressView::print(const std::string& text) {
+    // Nobody may listen any more (a closed pipe), which is no reason to stop.
+    std::fputs(text.c_str(), stderr);
+    std::fflush(stderr);
+}
+
 ProgressView::ProgressView(ProgressStyle style)
     : style_(style), live_(style == ProgressStyle::automatic && isatty(STDERR_FILENO) == 1) {}
 
@@ -40,8 +46,7 @@ ProgressView::~ProgressView() {
 
 void ProgressView::clear() {
     if (!shown_) return;
-    std::fputs("\r\x1b[K", stderr);
-    std::fflush(stderr);
+    print("\r\x1b[K");
     shown_ = false;
 }
 
@@ -56,24 +61,26 @@ void ProgressView::update(double fraction, int sections_done, int sections, doub
     last_fraction_ = fraction;
     const std::string line = progress_line(fraction, sections_done, sections, seconds);
     if (live_) {
-        fmt::print(stderr, "\r{}\x1b[K", line);
+        print(fmt::format("\r{}\x1b[K", line));
         shown_ = true;
     } else {
-        fmt::print(stderr, "mpipov: {}\n", line);
+        print(fmt::format("mpipov: {}\n", line));
     }
-    std::fflush(stderr);
 }
 
 void ProgressView::finish(int sections, double seconds) {
     if (style_ == ProgressStyle::none || live_) return;
-    fmt::print(stderr, "mpipov: {} in {}\n", progress_line(1, sections, sections, seconds),
-               duration(seconds));
+    print(fmt::format("mpipov: {} in {}\n", progress_line(1, sections, sections, seconds),
+                      duration(seconds)));
 }
 
 void ProgressView::say(const std::string& line) {
-    if (style_ == ProgressStyle::none) return;
     clear();
-    fmt::print(stderr, "{}\n", line);
+    print(line + '\n');
+}
+
+void ProgressView::inform(const std::string& line) {
+    if (style_ != ProgressStyle::none) say(line);
 }
 
 }  // namespace mpipov

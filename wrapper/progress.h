@@ -19,10 +19,14 @@ class ProgressView {
     void update(double fraction, int sections_done, int sections, double seconds);
     // All is rendered.
     void finish(int sections, double seconds);
-    // A line of its own, above the live one; not on `none`.
+    // A line of its own, above the live one. What is no progress (POV-Ray's warnings, what the user
+    // should know of the plan) is said on `none` too.
     void say(const std::string& line);
+    // The same, but for `none`.
+    void inform(const std::string& line);
 
   private:
+    static void print(const std::string& text);
     void clear();
 
     ProgressStyle style_;

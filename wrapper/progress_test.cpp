@@ -130,9 +130,11 @@ TEST(Progress, NoneIsSilent) {
     EXPECT_EQ(printed([] {
                   ProgressView view(ProgressStyle::none);
                   view.update(0.5, 1, 2, 100);
-                  view.say("a warning");
+                  view.inform("resumed");
               }),
               "");
+    EXPECT_EQ(printed([] { ProgressView(ProgressStyle::none).say("a warning"); }), "a warning\n")
+        << "that is no progress";
 }
 
 }  // namespace

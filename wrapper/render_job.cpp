@@ -161,6 +161,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
 
     Canvas canvas({plan.record.image.width, plan.record.image.height, plan.record.image.channels,
                    depth_from_string(plan.record.image.depth)});
+    canvas.make_opaque_outside(plan.record.region);
     CoordinatorSetup coordination;
     coordination.partition = plan.partition;
     coordination.policy = options.schedule;
@@ -186,7 +187,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
                                    journal->read(finished.section));
                 ++resumed;
             }
-            progress.say(fmt::format("mpipov: {} of {} sections were finished before", resumed,
+            progress.inform(fmt::format("mpipov: {} of {} sections were finished before", resumed,
                                      plan.record.sections));
         }
         coordinator.start();

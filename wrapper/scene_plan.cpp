@@ -81,8 +81,8 @@ std::map<std::string, Effect> find_effects(const ProbeResult& probe) {
         probe.order_dependent || report.radiosity,
         report.radiosity ? "radiosity samples are taken in rendering order"
         : probe.order_dependent
-            ? "two small renders that differ only in their block order came out differently"
-            : "two small renders in different block orders are identical",
+            ? "small renders that differ only in their block order came out differently"
+            : "small renders in three block orders are identical",
         {}};
     effects["render"] = {true, "trace time of the small render, by area",
                          report.trace_cpu * area_ratio(probe)};

@@ -60,6 +60,28 @@ double value_at(const std::byte* at, Depth depth) {
     return 0;
 }
 
+template <typename Value>
+std::vector<std::byte> bytes_of(Value value) {
+    std::vector<std::byte> bytes(sizeof value);
+    std::memcpy(bytes.data(), &value, sizeof value);
+    return bytes;
+}
+
+// Full alpha.
+std::vector<std::byte> opaque(Depth depth) {
+    switch (depth) {
+        case Depth::uint8:
+            return bytes_of(std::numeric_limits<std::uint8_t>::max());
+        case Depth::uint16:
+            return bytes_of(std::numeric_limits<std::uint16_t>::max());
+        case Depth::half:
+            return bytes_of(imath_float_to_half(1));
+        case Depth::float32:
+            return bytes_of(1.0F);
+    }
+    return {};
+}
+
 }  // namespace
 
 Canvas::Canvas(const PixelLayout& layout) : layout_(layout) {
@@ -92,6 +114,24 @@ void Canvas::place(const Rect& rect, std::span<const std::byte> pixels, const Re
                     pixels.data() + row_offset(rect, y, pixel) +
                         static_cast<std::size_t>(part.x0 - rect.x0) * pixel,
                     bytes);
+}
+
+void Canvas::make_opaque(const Rect& rect) {
+    const std::size_t pixel = layout_.bytes_per_pixel();
+    const std::vector<std::byte> one = opaque(layout_.depth);
+    for (int y = rect.y0; y < rect.y1; ++y)
+        for (int x = rect.x0; x < rect.x1; ++x)
+            std::ranges::copy(one, pixels_.get() + row_offset(bounds(), y, pixel) +
+                                       static_cast<std::size_t>(x + 1) * pixel - one.size());
+}
+
+void Canvas::make_opaque_outside(const Rect& region) {
+    if (layout_.channels != 2 && layout_.channels != 4) return;
+    const Rect all = bounds();
+    make_opaque({0, 0, all.x1, region.y0});
+    make_opaque({0, region.y1, all.x1, all.y1});
+    make_opaque({0, region.y0, region.x0, region.y1});
+    make_opaque({region.x1, region.y0, all.x1, region.y1});
 }
 
 std::vector<std::byte> Canvas::read(const Rect& rect) const {

@@ -27,6 +27,10 @@ class Canvas {
     // std::invalid_argument when rect does not lie in the frame or pixels is not of its size.
     void place(const Rect& rect, std::span<const std::byte> pixels, const Rect& keep);
 
+    // What POV-Ray leaves around a region that it was told to render: black, and opaque where there
+    // is an alpha channel (the last of 2 or 4), else as the canvas was.
+    void make_opaque_outside(const Rect& region);
+
     // A copy of the pixels of `rect`, row by row. Throws std::invalid_argument as place does.
     std::vector<std::byte> read(const Rect& rect) const;
 
@@ -37,6 +41,8 @@ class Canvas {
     std::string sha1() const;
 
   private:
+    void make_opaque(const Rect& rect);
+
     struct Unmap {
         std::size_t size;
         void operator()(std::byte* pixels) const;

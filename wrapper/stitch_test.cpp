@@ -74,6 +74,31 @@ TEST(Canvas, CostsNothingBeforeItIsUsed) {
     EXPECT_EQ(as_text(canvas.read({249'999, 99'999, 250'000, 100'000})), "12345678");
 }
 
+TEST(Canvas, IsOpaqueBlackAroundARegion) {
+    for (const Depth depth : {Depth::uint8, Depth::uint16, Depth::half, Depth::float32}) {
+        Canvas canvas({.width = 4, .height = 3, .channels = 2, .depth = depth});
+        const Rect region{1, 1, 3, 2};
+        const auto inside = canvas.read(region);
+        canvas.make_opaque_outside(region);
+        EXPECT_EQ(canvas.read(region), inside);
+        const std::size_t size = canvas.layout().bytes_per_pixel() / 2;
+        const auto corner = canvas.read({0, 0, 1, 1});
+        const auto zero = std::vector<std::byte>(size);
+        EXPECT_TRUE(std::equal(zero.begin(), zero.end(), corner.begin())) << "colour";
+        for (const Rect& one : {Rect{0, 0, 1, 1}, Rect{3, 0, 4, 1}, Rect{0, 1, 1, 2},
+                                Rect{3, 1, 4, 2}, Rect{1, 2, 2, 3}, Rect{3, 2, 4, 3}})
+            EXPECT_EQ(canvas.read(one), corner);
+        const float one = 1;
+        std::vector<std::byte> full(size, std::byte{0xff});
+        if (depth == Depth::float32) std::memcpy(full.data(), &one, size);
+        if (depth == Depth::half) full = {std::byte{0x00}, std::byte{0x3c}};
+        EXPECT_TRUE(std::equal(full.begin(), full.end(), corner.end() - static_cast<long>(size)));
+    }
+    Canvas canvas({.width = 2, .height = 1, .channels = 3, .depth = Depth::uint8});
+    canvas.make_opaque_outside({0, 0, 1, 1});
+    EXPECT_EQ(canvas.read(canvas.bounds()), std::vector<std::byte>(6)) << "no alpha";
+}
+
 TEST(DifferingPixels, CountsPixelsAndFindsTheLargestStep) {
     Canvas canvas({.width = 3, .height = 2, .channels = 2, .depth = Depth::uint8});
     canvas.place(canvas.bounds(), as_bytes("aabbccddeeff"), canvas.bounds());

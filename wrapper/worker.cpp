@@ -14,6 +14,7 @@ namespace mpipov {
 namespace {
 
 constexpr int coordinator = 0;
+constexpr const char* image_name = "section";  // but for its extension
 
 std::string describe_end(const ChildProcess& child) {
     const ChildResult& result = child.result();
@@ -29,9 +30,10 @@ std::string describe_end(const ChildProcess& child) {
 
 }  // namespace
 
-std::filesystem::path find_image(const std::filesystem::path& folder) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        if (entry.path().extension() != ".pov-state") return entry.path();
+std::filesystem::path find_image(const std::filesystem::path& base) {
+    for (const auto& entry : std::filesystem::directory_iterator(base.parent_path()))
+        if (entry.path().stem() == base.filename() && entry.path().extension() != ".pov-state")
+            return entry.path();
     throw std::runtime_error("POV-Ray wrote no image");
 }
 
@@ -77,7 +79,7 @@ void Worker::start(const Message& message) {
     try {
         Folder folder(scratch_ / fmt::format("{}-{}", section.id, attempt));
         ChildRequest request;
-        request.argv = section_command(job_, section.render, image_, folder.path() / "section");
+        request.argv = section_command(job_, section.render, image_, folder.path() / image_name);
         request.timeout_seconds = timeout_seconds_;
         launches_.push_back(
             {section, attempt, std::move(folder), ChildProcess::start(request), std::nullopt, 0});
@@ -124,8 +126,8 @@ Worker::State Worker::begin_reading(Launch& launch) {
         send_failure(launch, describe_end(launch.child));
         return State::over;
     }
-    launch.reader.emplace(find_image(launch.folder.path()), image_.width, image_.height,
-                          launch.section.render, max_band_bytes);
+    launch.reader.emplace(find_image(launch.folder.path() / image_name), image_.width,
+                          image_.height, launch.section.render, max_band_bytes);
     return State::busy;
 }
 

@@ -77,8 +77,8 @@ class Worker {
     bool stopped_ = false;
 };
 
-// The one image that POV-Ray left in `folder` (it names it, we do not know the extension); throws
-// std::runtime_error where there is none.
-std::filesystem::path find_image(const std::filesystem::path& folder);
+// The image that POV-Ray made of the output name `base`: it adds an extension that we do not know,
+// and may put files of other names beside it (+GA). Throws std::runtime_error where there is none.
+std::filesystem::path find_image(const std::filesystem::path& base);
 
 }  // namespace mpipov

@@ -286,11 +286,13 @@ TEST_F(WorkerTest, SleepsAsLongAsItMayWithoutLaunches) {
 }
 
 TEST_F(WorkerTest, FindsTheImageBesideItsState) {
-    EXPECT_THROW(find_image(elsewhere_.path()), std::runtime_error);
+    const auto base = elsewhere_.path() / "section";
+    EXPECT_THROW(find_image(base), std::runtime_error);
     write_text(elsewhere_.path() / "section.pov-state", "");
-    EXPECT_THROW(find_image(elsewhere_.path()), std::runtime_error);
+    write_text(elsewhere_.path() / "all.txt", "a text stream (+GAall.txt)");
+    EXPECT_THROW(find_image(base), std::runtime_error);
     write_text(elsewhere_.path() / "section.png", "");
-    EXPECT_EQ(find_image(elsewhere_.path()), elsewhere_.path() / "section.png");
+    EXPECT_EQ(find_image(base), elsewhere_.path() / "section.png");
 }
 
 }  // namespace
