@@ -20,6 +20,7 @@ class Scene:
     effects: dict
     order_dependent: bool
     serial_seconds: float  # of CPU, at that size
+    rare_pixels: bool  # a few depend on the order all the same: POV-Ray's shadow cache
 
     def arguments(self, *more):
         """What POV-Ray, mpipov and mpipov-validate are told alike."""
@@ -36,7 +37,7 @@ def all_scenes():
     listed = json.loads((FOLDER / "scenes.json").read_text())["scenes"]
     return [Scene(one["name"].replace("/", "."), FOLDER / one["file"], tuple(one["size"]),
                   tuple(one["options"]), one["effects"], one["order_dependent"],
-                  one["serial_seconds"])
+                  one["serial_seconds"], one.get("rare_pixels", False))
             for one in listed]
 
 
