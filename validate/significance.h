@@ -32,8 +32,9 @@ class TailSample {
 // The value that one of the population of `quiet` exceeds with probability p, where p may be less
 // than 1 / count: Weissman's estimate, x(m+1) (m / (count p))^xi, with Hill's
 // xi = mean over i <= m of log(x(i) / x(m+1)), m = 20 (fewer where the sample is small: a quarter
-// of it). Never less than `theoretical`, which is also the answer where the sample is too small
-// (fewer than 8 values) or has no tail.
+// of it), taken at the upper end of its one-sided 95 % interval, xi (1 + 1.645 / sqrt(m)). Never
+// less than `theoretical`, which is also the answer where the sample is too small (fewer than 8
+// values) or has no tail.
 double critical_value(const TailSample& quiet, double p, double theoretical);
 
 }  // namespace mpipov
