@@ -1,13 +1,12 @@
 #include "output_place.h"
 
 #include "failure.h"
+#include "part_file.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
-#include <cstring>
+#include <climits>
 #include <stdexcept>
 #include <system_error>
 
@@ -18,41 +17,33 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
     return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
-// A name beside `file` that nobody else uses; a reader that looks for images does not see it. What
-// has not been renamed in the end is removed.
-class Part {
-  public:
-    explicit Part(const std::filesystem::path& file)
-        : part_(folder_of(file) / fmt::format(".{}.{}.part", file.filename().string(),
-                                              static_cast<long>(getpid()))) {}
-    Part(const Part&) = delete;
-    Part& operator=(const Part&) = delete;
-    ~Part() {
-        std::error_code ignored;
-        std::filesystem::remove(part_, ignored);
-    }
-    const std::filesystem::path& file() const { return part_; }
-
-  private:
-    std::filesystem::path part_;
-};
-
 void check_file(const std::filesystem::path& file) {
     const std::filesystem::path folder = folder_of(file);
+    std::error_code error;
+    const bool there = std::filesystem::exists(file, error);
+    if (error.value() == ENAMETOOLONG)
+        throw Failure(Exit::file,
+                      fmt::format("cannot write '{}': {}", file.string(), error.message()));
     if (!std::filesystem::exists(folder))
         throw Failure(Exit::file, fmt::format("cannot write '{}': no such directory '{}'",
                                               file.string(), folder.string()));
-    if (std::filesystem::is_directory(file))
+    if (there && std::filesystem::is_directory(file))
         throw Failure(Exit::file,
                       fmt::format("cannot write '{}': it is a directory", file.string()));
     // Access rights do not tell everything (a read-only file system, a full disk, root).
-    std::string trial = (folder / ".mpipov-XXXXXX").string();
-    const int descriptor = mkstemp(trial.data());
-    if (descriptor < 0)
-        throw Failure(Exit::file,
-                      fmt::format("cannot write '{}': {}", file.string(), std::strerror(errno)));
-    close(descriptor);
-    unlink(trial.c_str());
+    try {
+        const PartFile trial(file);
+    } catch (const std::runtime_error& refused) {
+        throw Failure(Exit::file, refused.what());
+    }
+}
+
+// A name may have 255 bytes.
+std::filesystem::path work_folder_beside(const std::filesystem::path& image) {
+    constexpr std::size_t longest = NAME_MAX;
+    const std::string ending = ".mpipov";
+    const std::string name = image.filename().string();
+    return image.parent_path() / (name.substr(0, longest - ending.size()) + ending);
 }
 
 }  // namespace
@@ -61,7 +52,7 @@ OutputPlace::OutputPlace(std::filesystem::path image, std::filesystem::path reco
                          std::filesystem::path work_folder)
     : image_(std::move(image)), record_(std::move(record)), work_folder_(std::move(work_folder)) {
     if (record_.empty()) record_ = image_.parent_path() / "run.json";
-    if (work_folder_.empty()) work_folder_ = image_.string() + ".mpipov";
+    if (work_folder_.empty()) work_folder_ = work_folder_beside(image_);
 }
 
 void OutputPlace::check() const {
@@ -70,19 +61,15 @@ void OutputPlace::check() const {
 }
 
 void OutputPlace::write(const std::function<void(const std::filesystem::path&)>& encode) const {
-    const Part part(image_);
     try {
-        encode(part.file());
+        PartFile part(image_);
+        encode(part.path());
+        part.take_place();
     } catch (const Failure&) {
         throw;
     } catch (const std::runtime_error& error) {
         throw Failure(Exit::file, error.what());
     }
-    std::error_code error;
-    std::filesystem::rename(part.file(), image_, error);
-    if (error)
-        throw Failure(Exit::file,
-                      fmt::format("cannot write '{}': {}", image_.string(), error.message()));
 }
 
 }  // namespace mpipov

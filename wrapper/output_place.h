@@ -9,7 +9,8 @@ namespace mpipov {
 
 class OutputPlace {
   public:
-    // Empty paths: run.json and `<image>.mpipov` beside the image.
+    // Empty paths: run.json and `<image>.mpipov` beside the image, of an image with a very long
+    // name its first 248 bytes.
     OutputPlace(std::filesystem::path image, std::filesystem::path record,
                 std::filesystem::path work_folder);
 

@@ -73,6 +73,26 @@ TEST_F(OutputPlaceTest, GivenNamesAreKept) {
     EXPECT_EQ(place.work_folder(), "c");
 }
 
+TEST_F(OutputPlaceTest, ALongNameHasRoomForEverything) {
+    const std::string name = std::string(251, 'n') + ".png";
+    const OutputPlace place(folder() / name, {}, {});
+    place.check();
+    EXPECT_LE(place.work_folder().filename().string().size(), 255u);
+    fs::create_directory(place.work_folder());
+    fs::remove(place.work_folder());
+    place.write([&](const fs::path& part) { write(part, "new"); });
+    EXPECT_THAT(files(), ElementsAre(name));
+    expect_refused({folder() / ("n" + name), folder() / "run.json", {}}, "too long");
+}
+
+TEST_F(OutputPlaceTest, TheImageHasTheRightsOfANewFile) {
+    const OutputPlace place(folder() / "picture.png", {}, {});
+    place.write([&](const fs::path& part) { write(part, "new"); });
+    write(folder() / "other", "");
+    EXPECT_EQ(fs::status(place.image()).permissions(),
+              fs::status(folder() / "other").permissions());
+}
+
 TEST_F(OutputPlaceTest, AGoodPlaceIsAcceptedAndLeftAsItWas) {
     write(folder() / "picture.png", "old");
     OutputPlace(folder() / "picture.png", {}, {}).check();

@@ -1,8 +1,12 @@
 #include "run_record.h"
 
+#include "part_file.h"
+
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 
 namespace mpipov {
@@ -11,6 +15,8 @@ namespace {
 using nlohmann::json;
 
 constexpr int format_version = 1;
+// JSON has no such number; it is null there.
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 json rect_json(const Rect& r) {
     return {{"x0", r.x0}, {"y0", r.y0}, {"x1", r.x1}, {"y1", r.y1}};
@@ -94,7 +100,7 @@ json seam_json(const SeamRecord& s) {
             {"to", s.seam.to},
             {"checked", s.checked},
             {"differing", s.differing},
-            {"max_difference", s.max_difference},
+            {"max_difference", std::isfinite(s.max_difference) ? json(s.max_difference) : json()},
             {"halo", s.halo}};
 }
 
@@ -104,7 +110,8 @@ SeamRecord seam_from(const json& j) {
               j.at("position").get<int>(), j.at("from").get<int>(), j.at("to").get<int>()};
     s.checked = j.at("checked").get<bool>();
     s.differing = j.at("differing").get<long long>();
-    s.max_difference = j.at("max_difference").get<double>();
+    const json& largest = j.at("max_difference");
+    s.max_difference = largest.is_null() ? infinite : largest.get<double>();
     s.halo = j.at("halo").get<int>();
     return s;
 }
@@ -232,18 +239,13 @@ RunRecord read_run_record(const std::filesystem::path& file) {
 }
 
 void write_run_record(const std::filesystem::path& file, const RunRecord& record) {
-    std::filesystem::path part = file;
-    part += ".part";
+    PartFile part(file);
     {
-        std::ofstream out(part);
+        std::ofstream out(part.path());
         out << to_json(record).dump(2, ' ', false, json::error_handler_t::replace) << '\n';
         if (!out.flush()) throw std::runtime_error(fmt::format("cannot write '{}'", file.string()));
     }
-    std::error_code error;
-    std::filesystem::rename(part, file, error);
-    if (error)
-        throw std::runtime_error(
-            fmt::format("cannot write '{}': {}", file.string(), error.message()));
+    part.take_place();
 }
 
 }  // namespace mpipov

@@ -64,10 +64,12 @@ struct SectionRecord {
 
 struct SeamRecord {
     Seam seam;
-    bool checked = false;       // two sections rendered the overlap and were compared
-    long long differing = 0;    // pixels of the overlap on which they disagree
-    double max_difference = 0;  // in the file's own units: levels of 8/16 bit, or float values
-    int halo = 0;               // overlap at the end, wider than the plan's where it was widened
+    bool checked = false;     // two sections rendered the overlap and were compared
+    long long differing = 0;  // pixels of the overlap on which they disagree
+    // In the file's own units: levels of 8/16 bit, or float values. Infinite, in JSON null, where
+    // one of the two is no finite number.
+    double max_difference = 0;
+    int halo = 0;  // overlap at the end, wider than the plan's where it was widened
 };
 
 struct Totals {
@@ -102,7 +104,8 @@ RunRecord run_from_json(const nlohmann::json& json);
 
 // Throws std::runtime_error with the file's name.
 RunRecord read_run_record(const std::filesystem::path& file);
-// Writes beside `file` and renames, so that a reader never sees half a record.
+// Writes beside `file` and renames, so that a reader never sees half a record. Throws
+// std::runtime_error with the file's name; nothing is left behind then.
 void write_run_record(const std::filesystem::path& file, const RunRecord& record);
 
 }  // namespace mpipov

@@ -1,8 +1,13 @@
 #include "run_record.h"
 
+#include "scratch.h"
+
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
 
 namespace mpipov {
 namespace {
@@ -37,6 +42,28 @@ RunRecord sample_record() {
 TEST(RunRecord, SurvivesTheRoundTrip) {
     const nlohmann::json json = to_json(sample_record());
     EXPECT_EQ(to_json(run_from_json(json)), json);
+}
+
+// Two sections of an EXR may disagree by it; JSON knows no such number.
+TEST(RunRecord, AnInfiniteDifferenceIsReadBack) {
+    const ScratchFolder scratch("record-test");
+    const std::filesystem::path file = scratch.path() / "run.json";
+    RunRecord record = sample_record();
+    record.seams[0].max_difference = std::numeric_limits<double>::infinity();
+    write_run_record(file, record);
+    EXPECT_EQ(read_run_record(file).seams.at(0).max_difference, record.seams[0].max_difference);
+    EXPECT_EQ(to_json(read_run_record(file)), to_json(record));
+}
+
+TEST(RunRecord, IsWrittenAsAWholeUnderAnyNameOrNotAtAll) {
+    const ScratchFolder scratch("record-test");
+    const std::filesystem::path file = scratch.path() / (std::string(250, 'r') + ".json");
+    write_run_record(file, sample_record());
+    EXPECT_EQ(to_json(read_run_record(file)), to_json(sample_record()));
+    const std::filesystem::path in_the_way = scratch.path() / "folder";
+    std::filesystem::create_directories(in_the_way / "inside");
+    EXPECT_THROW(write_run_record(in_the_way, sample_record()), std::runtime_error);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.path()), {}), 2);
 }
 
 TEST(RunRecord, NamesWhatIsMissing) {
