@@ -97,7 +97,7 @@ class ChildProcess {
 // Blocks until the child has ended; `output` may be null. Throws as ChildProcess::start.
 ChildResult run_to_end(const ChildRequest& request, std::string* output = nullptr);
 
-// The guard's path: $MPIPOV_GUARD, or beside this executable, or ../libexec/mpipov seen from there.
+// The guard's path: $MPIPOV_GUARD, or beside this executable, or where it was installed (MPIPOV_LIBEXEC_FROM_BIN).
 // Throws std::runtime_error saying where it was looked for.
 std::filesystem::path find_guard();
 

@@ -145,7 +145,7 @@ Spawned spawn_guarded(const ChildRequest& request) {
 
 std::filesystem::path find_guard() {
     return find_installed(
-        {.name = "mpipov-guard", .folder = "libexec/mpipov", .variable = "MPIPOV_GUARD"});
+        {.name = "mpipov-guard", .folder = MPIPOV_LIBEXEC_FROM_BIN, .variable = "MPIPOV_GUARD"});
 }
 
 }  // namespace mpipov

@@ -12,7 +12,7 @@ namespace {
 
 const ImageLibrary& load() {
     const std::filesystem::path file =
-        find_installed({.name = "mpipov-images.so", .folder = "lib/mpipov", .variable = {}});
+        find_installed({.name = "mpipov-images.so", .folder = MPIPOV_LIB_FROM_BIN, .variable = {}});
     // Never unloaded: what it made may outlive any handle to it.
     void* library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     void* entry = library != nullptr ? ::dlsym(library, "mpipov_image_library") : nullptr;

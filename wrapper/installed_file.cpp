@@ -25,7 +25,7 @@ fs::path find_installed(const InstalledFile& wanted) {
     }
     const fs::path here = program_folder();
     const std::array<fs::path, 2> places{here / wanted.name,
-                                         here.parent_path() / wanted.folder / wanted.name};
+                                         (here / wanted.folder / wanted.name).lexically_normal()};
     for (const fs::path& place : places)
         if (::access(place.c_str(), R_OK) == 0) return place;
     throw std::runtime_error(fmt::format(

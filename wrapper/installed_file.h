@@ -9,7 +9,7 @@ namespace mpipov {
 
 struct InstalledFile {
     std::string name;      // mpipov-guard
-    std::string folder;    // after an install, under the prefix: libexec/mpipov
+    std::string folder;    // after an install, from the program's: ../libexec/mpipov
     std::string variable;  // of the environment, that may name another; "": none
 };
 

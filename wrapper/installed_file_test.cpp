@@ -17,15 +17,23 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 TEST(InstalledFile, LiesBesideTheProgram) {
-    const auto file = find_installed({.name = "mpipov-guard", .folder = "libexec", .variable = {}});
+    const auto file =
+        find_installed({.name = "mpipov-guard", .folder = "../libexec", .variable = {}});
     EXPECT_EQ(file.filename(), "mpipov-guard");
     EXPECT_TRUE(std::filesystem::is_regular_file(file));
 }
 
 TEST(InstalledFile, SaysWhereItWasLookedFor) {
-    EXPECT_THAT([] { find_installed({.name = "no-such", .folder = "lib/x", .variable = {}}); },
+    EXPECT_THAT([] { find_installed({.name = "no-such", .folder = "../lib/x", .variable = {}}); },
                 ThrowsMessage<std::runtime_error>(
                     AllOf(HasSubstr("cannot find no-such"), HasSubstr("lib/x/no-such'"))));
+}
+
+TEST(InstalledFile, LiesWhereTheInstallPutIt) {
+    const auto here = program_folder();
+    const InstalledFile wanted{.name = here.filename().string(), .folder = "..", .variable = {}};
+    EXPECT_EQ(find_installed(wanted), here.parent_path() / here.filename());
+    EXPECT_EQ(find_installed({.name = "sh", .folder = "/bin", .variable = {}}), "/bin/sh");
 }
 
 TEST(InstalledFile, AVariableNamesAnother) {
