@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
 #include <deque>
 #include <fstream>
 #include <map>
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t most_scanned_bytes = std::uintmax_t{64} << 20;
 // POV-Ray tries these, and the same in capitals, for a name without an extension.
-constexpr std::array extensions{".pov", ".inc", ".ini", ".tga", ".gif",  ".iff",  ".pgm",
+constexpr std::array extensions{".pov", ".inc", ".ini", ".tga",  ".gif", ".iff",  ".pgm",
                                 ".ppm", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp",
                                 ".exr", ".hdr", ".ttf", ".sys",  ".df3"};
 
@@ -74,7 +75,7 @@ std::size_t after_comment(std::string_view text, std::size_t at) {
 
 struct Literal {
     std::string text;
-    std::size_t end = 0;     // behind its closing mark, or where it was given up
+    std::size_t end = 0;  // behind its closing mark, or where it was given up
     bool complete = false;
 };
 
@@ -152,26 +153,28 @@ std::string text_of(const fs::path& file) {
     return text.find('\0') == std::string::npos ? text : std::string();
 }
 
+// .../share/povray-3.7/...: a user's folder may be called povray-3.7 too.
 bool is_povrays_own(const fs::path& file) {
-    return std::any_of(file.begin(), file.end(), [](const fs::path& part) {
-        return part.string().rfind("povray-3.", 0) == 0;
-    });
+    const auto own = [](const fs::path& folder, const fs::path& inside) {
+        return folder == "share" && inside.string().rfind("povray-3.", 0) == 0;
+    };
+    return std::adjacent_find(file.begin(), file.end(), own) != file.end();
 }
 
 class Search {
   public:
     explicit Search(const SceneRequest& request) {
         folders_.emplace_back();  // of the run
-        folders_.insert(folders_.end(), request.library_paths.begin(),
-                        request.library_paths.end());
+        folders_.insert(folders_.end(), request.library_paths.begin(), request.library_paths.end());
         std::error_code ignored;
         output_ = fs::weakly_canonical(request.output, ignored);
         for (const std::string& option : request.options) look_for_all(names_in_option(option));
         look_for(request.scene);
-        // Where it lies is known now; POV-Ray itself looks beside it only with +L.
+        // Where the scene lies is known now. POV-Ray itself looks there only where +L says so.
         const std::vector<fs::path> found(to_scan_.begin(), to_scan_.end());
         for (const fs::path& file : found)
             if (lower(file.extension().string()) != ".ini") folders_.push_back(file.parent_path());
+        names_.clear();
         while (!to_scan_.empty()) {
             const fs::path file = to_scan_.front();
             to_scan_.pop_front();
@@ -217,7 +220,7 @@ class Search {
 
     std::vector<fs::path> folders_;
     fs::path output_;
-    std::set<std::string> names_;        // looked for already
+    std::set<std::string> names_;         // looked for already
     std::map<fs::path, fs::path> files_;  // canonical -> as it was named
     std::deque<fs::path> to_scan_;
 };
@@ -249,7 +252,8 @@ std::vector<std::string> names_in_option(std::string_view option) {
             names.emplace_back(name);
     };
     add(name_in_word(option));
-    // POV-Ray takes several options in one argument or line; that a name has blanks is not excluded.
+    // POV-Ray takes several options in one argument or line; that a name has blanks is not
+    // excluded.
     for (std::size_t at = 0; at < option.size();) {
         const std::size_t end = std::min(option.find_first_of(" \t", at), option.size());
         add(name_in_word(option.substr(at, end - at)));
