@@ -140,8 +140,8 @@ constexpr std::array rows{
         "static: each rank has its sections from the start; dynamic: the next section goes to "
         "whoever is free",
         "dynamic", set_schedule},
-    Row{sharing, "slots", "N", "cores that this rank may use at once; auto: its share of its host",
-        "auto",
+    Row{sharing, "slots", "N",
+        "cores that this rank keeps its launches to; auto: its share of its host", "auto",
         [](Options& o, const std::string& v) {
             o.slots = whole_or_auto(v, "a number of cores: auto or a whole number from 1");
         }},
@@ -162,7 +162,9 @@ constexpr std::array rows{
         "beside the image", [](Options& o, const std::string& v) { o.work_dir = v; }},
     Row{files, "povray", "PATH", "which POV-Ray to run", "povray",
         [](Options& o, const std::string& v) { o.povray = v; }},
-    Row{faults, "resume", nullptr, "go on from what an interrupted run left in its work folder",
+    Row{faults, "resume", nullptr,
+        "go on from what an interrupted run left in its work folder, unless the scene, a file that "
+        "it names or a setting changed",
         nullptr, [](Options& o, const std::string&) { o.resume = true; }},
     Row{faults, "timeout", "S", "seconds after which a launch of POV-Ray counts as hung", "auto",
         set_timeout},
@@ -173,8 +175,8 @@ constexpr std::array rows{
     Row{saying, "dry-run", nullptr, "print the plan and its predicted cost as JSON, and stop",
         nullptr, [](Options& o, const std::string&) { o.dry_run = true; }},
     Row{saying, "progress", "STYLE",
-        "auto: a live line on a terminal, plain lines elsewhere; "
-        "plain; none",
+        "auto: a live line on a terminal, plain lines elsewhere (mpiexec hands a pipe on); plain; "
+        "none: warnings only",
         "auto", set_progress},
     Row{saying, "help", nullptr, "this text", nullptr,
         [](Options& o, const std::string&) { o.help = true; }},
@@ -306,7 +308,8 @@ std::string manual_page() {
         page += '\n';
     }
     page +=
-        ".SH EXIT STATUS\n0 ok, 2 usage, 3 the scene or POV\\-Ray, 4 a file or the disk, "
+        ".SH EXIT STATUS\n0 ok, 2 usage, 3 the scene or POV\\-Ray, 4 a file, the disk "
+        "or too little memory for the image, "
         "5 interrupted or a rank was lost (\\fB\\-\\-resume\\fR goes on).\n";
     return page;
 }

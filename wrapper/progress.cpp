@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -24,8 +25,11 @@ std::string duration(double seconds) {
 }  // namespace
 
 std::string progress_line(double fraction, int sections_done, int sections, double seconds) {
-    std::string line = fmt::format("{:.0f} %, {} of {} sections", std::floor(fraction * 100),
-                                   sections_done, sections);
+    // The pixels of a section are done before it has come in.
+    const double most = sections_done < sections ? 99 : 100;
+    std::string line =
+        fmt::format("{:.0f} %, {} of {} sections", std::min(std::floor(fraction * 100), most),
+                    sections_done, sections);
     if (fraction > 0 && fraction < 1 && seconds > shortest_estimate)
         line += fmt::format(", {} left", duration(seconds * (1 - fraction) / fraction));
     return line;

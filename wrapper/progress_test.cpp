@@ -39,6 +39,8 @@ TEST(Progress, LineSaysHowFarAndHowLong) {
 TEST(Progress, LineGuessesNothingAtTheEnds) {
     EXPECT_EQ(progress_line(0, 0, 4, 100), "0 %, 0 of 4 sections");
     EXPECT_EQ(progress_line(1, 4, 4, 100), "100 %, 4 of 4 sections");
+    EXPECT_THAT(progress_line(0.9999999, 3, 4, 0), testing::StartsWith("99 %"));
+    EXPECT_EQ(progress_line(1, 3, 4, 100), "99 %, 3 of 4 sections");
     EXPECT_EQ(progress_line(0.5, 2, 4, 0.5), "50 %, 2 of 4 sections");
 }
 

@@ -4,17 +4,32 @@
 
 namespace mpipov {
 
+namespace {
+
+// How many ranks before this one have its mask.
+int sharers_before(const std::vector<std::vector<int>>& cpus, int local_rank) {
+    const auto mine = cpus.begin() + local_rank;
+    return static_cast<int>(std::count(cpus.begin(), mine, *mine));
+}
+
+}  // namespace
+
 int fair_slots(const std::vector<std::vector<int>>& cpus, int local_rank) {
     const std::vector<int>& mine = cpus.at(static_cast<std::size_t>(local_rank));
-    int others = 0, before = 0;
-    for (int rank = 0; rank < static_cast<int>(cpus.size()); ++rank) {
-        if (rank == local_rank || cpus[static_cast<std::size_t>(rank)] != mine) continue;
-        ++others;
-        if (rank < local_rank) ++before;
-    }
-    const int sharers = others + 1;
+    const auto sharers = static_cast<int>(std::count(cpus.begin(), cpus.end(), mine));
     const int all = static_cast<int>(mine.size());
-    return std::max(1, all / sharers + (before < all % sharers ? 1 : 0));
+    const bool one_more = sharers_before(cpus, local_rank) < all % sharers;
+    return std::max(1, all / sharers + (one_more ? 1 : 0));
+}
+
+std::vector<int> slot_cpus(const std::vector<std::vector<int>>& cpus, int local_rank, int slots) {
+    const std::vector<int>& mine = cpus.at(static_cast<std::size_t>(local_rank));
+    if (mine.empty()) return {};
+    const std::size_t count = std::min(static_cast<std::size_t>(slots), mine.size());
+    const std::size_t first = static_cast<std::size_t>(sharers_before(cpus, local_rank)) * count;
+    std::vector<int> kept;
+    for (std::size_t i = 0; i < count; ++i) kept.push_back(mine[(first + i) % mine.size()]);
+    return kept;
 }
 
 }  // namespace mpipov

@@ -58,5 +58,17 @@ TEST(Slots, AnUnknownMaskStillMeansOne) {
     EXPECT_THROW(fair_slots({{0}}, 1), std::out_of_range);
 }
 
+TEST(SlotCpus, RanksKeepApartAsFarAsThereAreCores) {
+    using Cpus = std::vector<int>;
+    const Masks shared(3, {2, 3, 4, 5});
+    EXPECT_EQ(slot_cpus(shared, 0, 2), (Cpus{2, 3}));
+    EXPECT_EQ(slot_cpus(shared, 1, 2), (Cpus{4, 5}));
+    EXPECT_EQ(slot_cpus(shared, 2, 2), (Cpus{2, 3})) << "none are left";
+    EXPECT_EQ(slot_cpus(shared, 1, 3), (Cpus{5, 2, 3}));
+    EXPECT_EQ(slot_cpus(shared, 1, 9), (Cpus{2, 3, 4, 5})) << "no more than there are";
+    EXPECT_EQ(slot_cpus({{0, 1}, {2, 3}}, 1, 1), Cpus{2}) << "bound to other cores";
+    EXPECT_TRUE(slot_cpus({{}}, 0, 1).empty());
+}
+
 }  // namespace
 }  // namespace mpipov
