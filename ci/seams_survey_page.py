@@ -13,6 +13,11 @@ SHORT = {"identical": "=", "differs": "≠", "within noise": "≈", "beyond nois
          "failed": "failed"}
 
 
+def is_noisy(noise):
+    """With so little noise that it cannot be measured, a scene is judged as one without."""
+    return bool(noise and noise.get("renders") and not noise.get("why_not_enough"))
+
+
 class Case:
     """One image in sections: what the record says of it, with names of its own."""
 
@@ -97,13 +102,11 @@ def noisy_table(cases):
             steps = [c.step() for c in group if c.differing]
             steps = [(a, b) for a, b in steps if a is not None and b is not None]
             rows.append([kind, sections, len(group),
-                         *(verdicts[v] for v in ("identical", "within noise", "beyond noise",
-                                                 "differs")),
+                         *(verdicts[v] for v in ("identical", "within noise", "beyond noise")),
                          *(f"{median(s[i] for s in steps):.2f}" if steps else "-"
                            for i in (0, 1))])
     return table(["seams", "tiles", "scenes", "identical", "within noise", "beyond noise",
-                  "too little noise to judge", "step at the seams, median",
-                  "midway between, median"], rows)
+                  "step at the seams, median", "midway between, median"], rows)
 
 
 def alarm_table(records):
@@ -139,6 +142,32 @@ def self_check_table(cases):
                   "not checked and not right"], rows)
 
 
+def answer(cases):
+    """What the figures say of the 1999 paper's "not noticeable"."""
+    plain = [case for case in cases if case.kind == "plain"]
+    most = max(SECTIONS)
+    many = [case for case in plain if case.sections == most]
+    differ = [case for case in many if case.differing]
+    steps = [step for step in (case.step() for case in differ) if None not in step]
+    aligned = [case for case in cases if case.kind == "aligned"]
+    share = 100 * max(case.differing / case.pixels for case in plain)
+    return f"""The 1999 paper cut images as `plain` does, with antialiasing of method 1, and found its
+seams not noticeable. In {most} tiles {len(differ)} of {len(many)} such scenes differ from the serial
+render, {sum(case.largest >= CLEAR for case in many)} of them by {CLEAR} levels or more in some pixel:
+measurable nearly always. But it is few pixels ({share:.1f} % of the picture at most, in any cut),
+SSIM is never below {min(case.ssim for case in plain if case.ssim is not None):.3f}, and the picture
+does not step: across the seams the mean step of the error is
+{median(step[0] for step in steps):.3f} levels in the median scene, midway between them
+{median(step[1] for step in steps):.3f}. What differs are edges that cross a seam, or run along it: a
+pixel is antialiased in one picture and not in the other, and neither looks wrong beside the other,
+even in the longest runs ({max(case.longest_run() for case in plain)} pixels). So "not noticeable" holds
+for an eye that has no serial render to compare with, and for nothing else. On the block grid there is
+nothing to notice: {sum(not case.differing for case in aligned)} of {len(aligned)} aligned images are
+the serial render bit for bit, at no cost; the others differ in
+{max(case.differing for case in aligned)} pixel at most, which the shadow cache decides
+([povray.md](povray.md))."""
+
+
 def scene_rows(cases):
     by_row = {}
     for case in cases:
@@ -157,7 +186,7 @@ def page(records, left_out, size):
     complete = [entry for entry in records if entry[2]["complete"] and not entry[2]["failure"]]
     cases = {"exact": [], "noisy": []}
     for name, folder, record in complete:
-        kind = "noisy" if record["noise"] and record["noise"].get("renders") else "exact"
+        kind = "noisy" if is_noisy(record["noise"]) else "exact"
         cases[kind] += [Case(name, folder, case) for case in record["cases"]]
     names = {kind: {case.scene for case in group} for kind, group in cases.items()}
     debian = sum(name.startswith("debian/") for name, _, _ in complete)
@@ -174,7 +203,17 @@ pixels, in 2, 8 and 32 tiles, compared with the serial render by `mpipov-validat
 aligned with POV-Ray's default blocks, halo with the render in one block. Differences are in levels
 of 255.
 
+## Is it noticeable?
+
+{answer(cases['exact'])}
+
+In scenes with noise of their own the tests below find most plain seams, since single pixels of edges
+lie far outside that noise; aligned and halo seams pass, but where radiosity has a cache for each
+section: there the brightness steps at the seams by more than between serial renders.
+
 ## Scenes whose pixels do not depend on the order of rendering: {len(names['exact'])}
+
+Or hardly: where other block orders change a pixel or two, POV-Ray's shadow cache does.
 
 {exact_table(cases['exact'])}
 
