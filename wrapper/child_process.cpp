@@ -3,6 +3,7 @@
 #include "bounded_text.h"
 #include "cpu_time.h"
 #include "guarded_spawn.h"
+#include "interrupt.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -283,6 +284,7 @@ const ChildResult& ChildProcess::result() const {
 ChildResult run_to_end(const ChildRequest& request, std::string* output) {
     ChildProcess child = ChildProcess::start(request);
     while (!child.poll()) {
+        throw_if_interrupted();
         std::array<pollfd, 2> set{{{child.output_fd(), POLLIN, 0}, {child.exit_fd(), POLLIN, 0}}};
         ::poll(set.data(), set.size(), child.wait_milliseconds());
     }

@@ -94,11 +94,12 @@ class ChildProcess {
     std::unique_ptr<State> state_;
 };
 
-// Blocks until the child has ended; `output` may be null. Throws as ChildProcess::start.
+// Blocks until the child has ended; `output` may be null. Throws as ChildProcess::start, and
+// Failure(Exit::interrupted) after a signal (interrupt.h), when the child has been ended.
 ChildResult run_to_end(const ChildRequest& request, std::string* output = nullptr);
 
-// The guard's path: $MPIPOV_GUARD, or beside this executable, or where it was installed (MPIPOV_LIBEXEC_FROM_BIN).
-// Throws std::runtime_error saying where it was looked for.
+// The guard's path: $MPIPOV_GUARD, or beside this executable, or where CMake installs it. Throws
+// std::runtime_error saying where it was looked for.
 std::filesystem::path find_guard();
 
 }  // namespace mpipov

@@ -68,13 +68,16 @@ void send_stops(Transport& transport) {
         transport.send({MessageKind::stop, rank, nlohmann::json::object(), {}});
 }
 
-std::optional<Message> wait_for_message(Transport& transport, double seconds) {
-    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    while (std::chrono::steady_clock::now() < until) {
+std::optional<Message> wait_for_message(Transport& transport, double seconds,
+                                        double seconds_after_signal) {
+    using Seconds = std::chrono::duration<double>;
+    const auto begin = std::chrono::steady_clock::now();
+    for (;;) {
         if (auto message = transport.try_receive()) return message;
+        const double most = interrupted() ? std::min(seconds, seconds_after_signal) : seconds;
+        if (Seconds(std::chrono::steady_clock::now() - begin).count() >= most) return {};
         ::poll(nullptr, 0, 2);
     }
-    return {};
 }
 
 }  // namespace mpipov

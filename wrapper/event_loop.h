@@ -25,7 +25,9 @@ void run_event_loop(const EventLoop& loop);
 // Tells every other rank to stop. They end their launches and leave their loops.
 void send_stops(Transport& transport);
 
-// Waits for one message of a worker that is starting (hello or refused), at most `seconds`.
-std::optional<Message> wait_for_message(Transport& transport, double seconds);
+// Waits for one message outside of the loop, at most `seconds`, and after a signal (interrupt.h) at
+// most `seconds_after_signal`.
+std::optional<Message> wait_for_message(Transport& transport, double seconds,
+                                        double seconds_after_signal = 0);
 
 }  // namespace mpipov

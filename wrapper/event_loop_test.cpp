@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -141,10 +142,30 @@ TEST_F(EventLoopTest, ARankThatRefusesEndsTheRun) {
     }
 }
 
+// SIGTERM stays pending while it lives, without ending the test.
+class PendingSignal {
+  public:
+    PendingSignal() {
+        pthread_sigmask(SIG_SETMASK, nullptr, &before_);
+        block_interrupts();
+    }
+    PendingSignal(const PendingSignal&) = delete;
+    PendingSignal& operator=(const PendingSignal&) = delete;
+    ~PendingSignal() {
+        sigset_t term{};
+        sigemptyset(&term);
+        sigaddset(&term, SIGTERM);
+        const timespec at_once{};
+        EXPECT_EQ(sigtimedwait(&term, nullptr, &at_once), SIGTERM);
+        pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    }
+
+  private:
+    sigset_t before_{};
+};
+
 TEST_F(EventLoopTest, ASignalEndsTheLaunches) {
-    sigset_t before{};
-    pthread_sigmask(SIG_SETMASK, nullptr, &before);
-    block_interrupts();
+    const PendingSignal signal;
     const Environment fault = faults("hang");
     const double begin = now();
     int steps = 0;
@@ -157,12 +178,22 @@ TEST_F(EventLoopTest, ASignalEndsTheLaunches) {
         EXPECT_EQ(failure.code(), Exit::interrupted);
     }
     EXPECT_LT(now() - begin, 20) << "a launch that hangs has held it up";
-    sigset_t term{};
-    sigemptyset(&term);
-    sigaddset(&term, SIGTERM);
-    const timespec at_once{};
-    EXPECT_EQ(sigtimedwait(&term, nullptr, &at_once), SIGTERM);
-    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+TEST_F(EventLoopTest, ASignalEndsTheWaitForAMessage) {
+    const PendingSignal signal;
+    InProcessRanks ranks(2);
+    const double begin = now();
+    std::jthread later([] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        ::kill(::getpid(), SIGTERM);
+    });
+    EXPECT_FALSE(wait_for_message(ranks.at(0), 60));
+    EXPECT_FALSE(wait_for_message(ranks.at(0), 60, 0.1));
+    EXPECT_LT(now() - begin, 20);
+    // What is there is taken all the same.
+    ranks.at(1).send({MessageKind::bye, 0, nlohmann::json::object(), {}});
+    EXPECT_TRUE(wait_for_message(ranks.at(0), 60));
 }
 
 TEST_F(EventLoopTest, PassesOnWhatAStepThrows) {

@@ -59,13 +59,13 @@ RankRecord about_this_rank(const Options& options, int rank) {
 }
 
 void send_refusal(Transport& transport, const RankRecord& self, Exit code, const std::string& why) {
-    constexpr double patience_seconds = 10;
+    constexpr double patience_seconds = 10, interrupted_seconds = 1;
     transport.send({MessageKind::refused,
                     0,
                     {{"host", self.host}, {"why", why}, {"code", static_cast<int>(code)}},
                     {}});
     // MPI must not be left with an unread message, and rank 0 will send one more.
-    while (const auto message = wait_for_message(transport, patience_seconds))
+    while (const auto message = wait_for_message(transport, patience_seconds, interrupted_seconds))
         if (message->kind == MessageKind::stop) return;
 }
 
@@ -87,15 +87,22 @@ void serve(const Options& options, const RankRecord& self, Transport& transport)
     }
 }
 
+// Does not throw where nobody listens.
+void complain(const std::string& what) {
+    std::fputs(fmt::format("mpipov: {}\n", what).c_str(), stderr);
+}
+
 // Tells the other ranks to stop and hears them out: MPI must not be left with unread messages.
-void dismiss(Transport& transport) {
-    constexpr double patience_seconds = 10;
+// A user who interrupts does not wait for a rank that does not answer: false then.
+bool dismiss(Transport& transport) {
+    constexpr double patience_seconds = 10, interrupted_seconds = 1;
     send_stops(transport);
     for (int waiting = transport.size() - 1; waiting > 0;) {
-        const auto message = wait_for_message(transport, patience_seconds);
-        if (!message) return;
+        const auto message = wait_for_message(transport, patience_seconds, interrupted_seconds);
+        if (!message) return !interrupted();
         if (message->kind == MessageKind::bye) --waiting;
     }
+    return true;
 }
 
 // What rank 0 does.
@@ -130,17 +137,15 @@ int run(const std::vector<std::string>& arguments, int rank) {
     }
     try {
         coordinate(options, arguments, self, transport);
-    } catch (...) {
-        dismiss(transport);
+    } catch (const std::exception& error) {
+        if (!dismiss(transport)) {  // MPI_Finalize would wait for the rank too
+            complain(error.what());
+            MPI_Abort(MPI_COMM_WORLD, static_cast<int>(Exit::interrupted));
+        }
         throw;
     }
     dismiss(transport);
     return 0;
-}
-
-// Does not throw where nobody listens.
-void complain(const std::string& what) {
-    std::fputs(fmt::format("mpipov: {}\n", what).c_str(), stderr);
 }
 
 }  // namespace
