@@ -1,6 +1,6 @@
 // How a program of ours ends: the exit codes of mpipov and mpipov-validate.
-// 0 ok, 1 the images differ or a bar is missed, 2 usage, 3 the scene or POV-Ray, 4 a file or the
-// disk, 5 interrupted or a rank was lost (--resume goes on).
+// 0 ok, 1 the images differ or a bar is missed, 2 usage, 3 the scene or POV-Ray, 4 a file, the disk
+// or too little memory for the image, 5 interrupted or a rank was lost (--resume goes on).
 #pragma once
 
 #include <stdexcept>

@@ -1,9 +1,11 @@
 #include "journal.h"
 
 #include "failure.h"
+#include "job_identity.h"
 
 #include <OpenImageIO/hash.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -19,6 +21,7 @@ using nlohmann::json;
 constexpr std::string_view journal_name = "journal.json";
 constexpr std::string_view sections_name = "sections.jsonl";
 constexpr std::string_view pixels_extension = ".pixels";
+constexpr int format_version = 2;
 
 [[noreturn]] void cannot(const char* what, const std::filesystem::path& file) {
     throw Failure(Exit::file,
@@ -54,6 +57,36 @@ void end_last_line(const std::filesystem::path& file) {
     if (!stream.put('\n').flush()) cannot("write", file);
 }
 
+// Null where there is none, or it is no journal of ours.
+json read_head(const std::filesystem::path& folder) {
+    std::ifstream in(folder / journal_name);
+    json head = json::parse(in, nullptr, false);
+    const bool whole = head.is_object() && head.value("format", json()) == "mpipov-journal" &&
+                       head.value("version", json()) == format_version &&
+                       head.contains("identity") && head.contains("plan") &&
+                       head.value("folders made", json()).is_number_integer();
+    return whole ? head : json();
+}
+
+// "a/b/" names the same folder as "a/b", but its parent is another.
+std::filesystem::path without_last_slash(std::filesystem::path folder) {
+    return folder.has_filename() || !folder.has_parent_path() ? folder : folder.parent_path();
+}
+
+// How many folders of this path there are not, beginning at its end.
+int missing_folders(std::filesystem::path folder) {
+    int missing = 0;
+    std::error_code ignored;
+    for (; !folder.empty() && !std::filesystem::exists(folder, ignored);
+         folder = folder.parent_path())
+        ++missing;
+    return missing;
+}
+
+void remove_empty_folders(std::filesystem::path folder, int how_many) {
+    for (; how_many > 0; --how_many, folder = folder.parent_path()) ::rmdir(folder.c_str());
+}
+
 bool is_entry(const json& entry) {
     return entry.is_object() && entry.value("section", json()).is_number_integer() &&
            entry.value("sha1", json()).is_string() && entry.contains("about");
@@ -80,55 +113,71 @@ std::filesystem::path Journal::pixel_file(int section) const {
 
 Journal Journal::create(const std::filesystem::path& folder, const json& identity,
                         const json& plan) {
+    const json earlier = read_head(folder);
+    Journal journal(without_last_slash(folder));
+    journal.plan_ = plan;
+    // What an interrupted run made in vain is this one's to remove.
+    journal.folders_made_ = earlier.is_null() ? missing_folders(journal.folder_)
+                                              : earlier.at("folders made").get<int>();
+    try {
+        journal.begin(identity);
+    } catch (...) {
+        remove_empty_folders(journal.folder_, journal.folders_made_);
+        throw;
+    }
+    return journal;
+}
+
+void Journal::begin(const json& identity) {
     std::error_code error;
-    std::filesystem::create_directories(folder, error);
+    std::filesystem::create_directories(folder_, error);
     if (error)
         throw Failure(Exit::file, fmt::format("cannot make the work folder '{}': {}",
-                                              folder.string(), error.message()));
-    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+                                              folder_.string(), error.message()));
+    for (const auto& entry : std::filesystem::directory_iterator(folder_, error))
         if (!belongs_to_a_journal(entry.path()))
             throw Failure(Exit::file,
                           fmt::format("the work folder '{}' holds '{}', which is not mpipov's: "
                                       "name another one with --work-dir",
-                                      folder.string(), entry.path().filename().string()));
-    remove_files(folder);
-    Journal journal(folder);
-    journal.plan_ = plan;
-    const std::filesystem::path file = folder / journal_name;
+                                      folder_.string(), entry.path().filename().string()));
+    remove_files(folder_);
+    const std::filesystem::path file = folder_ / journal_name;
     std::ofstream out(file);
     out << to_text({{"format", "mpipov-journal"},
-                    {"version", 1},
+                    {"version", format_version},
+                    {"folders made", folders_made_},
                     {"identity", identity},
-                    {"plan", plan}},
+                    {"plan", plan_}},
                    2)
         << '\n';
-    if (!out.flush()) cannot("write", file);
-    return journal;
+    if (out.flush()) return;
+    const int why = errno;
+    out.close();
+    remove_files(folder_);
+    errno = why;
+    cannot("write", file);
 }
 
 Journal Journal::open(const std::filesystem::path& folder, const json& identity) {
     const std::filesystem::path file = folder / journal_name;
-    std::ifstream in(file);
-    if (!in)
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
         throw Failure(Exit::usage, fmt::format("--resume: nothing to go on from in '{}'; run "
                                                "without --resume",
                                                folder.string()));
-    const json stored = json::parse(in, nullptr, false);
-    if (!stored.is_object() || stored.value("format", json()) != "mpipov-journal" ||
-        stored.value("version", json()) != 1 || !stored.contains("identity") ||
-        !stored.contains("plan"))
+    const json stored = read_head(folder);
+    if (stored.is_null())
         throw Failure(Exit::file,
                       fmt::format("'{}' is damaged; run without --resume", file.string()));
-    const json& earlier = stored.at("identity");
-    const json now = json::parse(to_text(identity));
-    for (const auto& [key, value] : now.items())
-        if (!earlier.contains(key) || earlier.at(key) != value)
-            throw Failure(Exit::usage,
-                          fmt::format("--resume: the {} changed since the run that '{}' belongs "
-                                      "to; run without --resume",
-                                      key, folder.string()));
-    Journal journal(folder);
+    const std::string change = what_changed(stored.at("identity"), json::parse(to_text(identity)));
+    if (!change.empty())
+        throw Failure(Exit::usage,
+                      fmt::format("--resume: {} since the run that '{}' belongs to; run without "
+                                  "--resume",
+                                  change, folder.string()));
+    Journal journal(without_last_slash(folder));
     journal.plan_ = stored.at("plan");
+    journal.folders_made_ = stored.at("folders made").get<int>();
     end_last_line(folder / sections_name);
     return journal;
 }
@@ -189,9 +238,8 @@ std::vector<std::byte> Journal::read(int section) const {
 
 void Journal::remove() {
     open_.clear();
-    std::error_code ignored;
     remove_files(folder_);
-    std::filesystem::remove(folder_, ignored);
+    remove_empty_folders(folder_, folders_made_);
 }
 
 }  // namespace mpipov

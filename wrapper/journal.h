@@ -22,11 +22,12 @@ namespace mpipov {
 class Journal {
   public:
     // Starts a new journal in `folder`, in place of an old one. Throws Failure(Exit::file), also
-    // where the folder holds anything that is not a journal's: it would be lost with the journal.
+    // where the folder holds anything that is not a journal's; no folder is left behind then.
     static Journal create(const std::filesystem::path& folder, const nlohmann::json& identity,
                           const nlohmann::json& plan);
     // Opens the one that an earlier run left. Throws Failure(Exit::usage) where there is none or
-    // where `identity` differs in a value, naming it; Failure(Exit::file) where it is damaged.
+    // where `identity` differs (what_changed() in job_identity.h); Failure(Exit::file) where it is
+    // damaged.
     static Journal open(const std::filesystem::path& folder, const nlohmann::json& identity);
 
     const nlohmann::json& plan() const { return plan_; }
@@ -45,17 +46,20 @@ class Journal {
     // The pixels of such a section, all rows of `render`. Throws Failure(Exit::file).
     std::vector<std::byte> read(int section) const;
 
-    // Removes the journal, and the folder with it: the result is complete.
+    // Removes the journal, and the folders that create() made for it (this run's or the one's that
+    // it goes on from) where nothing else is in them: the result is complete.
     void remove();
 
     const std::filesystem::path& folder() const { return folder_; }
 
   private:
     explicit Journal(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    void begin(const nlohmann::json& identity);
     std::filesystem::path pixel_file(int section) const;
 
     std::filesystem::path folder_;
     nlohmann::json plan_;
+    int folders_made_ = 0;  // the folder itself, then the one that it is in, and so on
     std::map<int, std::ofstream> open_;
 };
 

@@ -218,8 +218,10 @@ TEST_F(JournalTest, ADamagedJournalIsNamed) {
     leave_three();
     for (const char* text :
          {"", "{", "[]", "3", "{}", R"({"format": 5})",
-          R"({"format": "mpipov-journal", "version": 1})",
-          R"({"format": "mpipov-journal", "version": 2, "identity": {}, "plan": {}})"}) {
+          R"({"format": "mpipov-journal", "version": 2})",
+          R"({"format": "mpipov-journal", "version": 2, "identity": {}, "plan": {}})",
+          R"({"format": "mpipov-journal", "version": 1, "identity": {}, "plan": {},
+              "folders made": 1})"}) {
         SCOPED_TRACE(text);
         write(folder() / "journal.json", text);
         expect_failure(Exit::file, "journal.json", [&] { Journal::open(folder(), identity); });
@@ -256,6 +258,38 @@ TEST_F(JournalTest, RemovesItselfAsAWhole) {
     leave_three();
     Journal::open(folder(), identity).remove();
     EXPECT_FALSE(fs::exists(folder()));
+}
+
+TEST_F(JournalTest, AFolderThatWasThereStays) {
+    fs::create_directory(folder());
+    leave_three();
+    Journal::open(folder(), identity).remove();
+    EXPECT_TRUE(fs::exists(folder()));
+    EXPECT_TRUE(fs::is_empty(folder()));
+}
+
+TEST_F(JournalTest, AllFoldersThatItMadeGo) {
+    fs::create_directory(folder());
+    for (const char* deep : {"a/b/c", "a/b/c/"}) {
+        const fs::path inner = folder() / deep;
+        Journal::create(inner, identity, plan);
+        Journal::create(inner, identity, plan);  // anew, in what an interrupted run left
+        Journal::open(inner, identity).remove();
+        EXPECT_TRUE(fs::exists(folder()));
+        EXPECT_TRUE(fs::is_empty(folder())) << deep;
+    }
+    Journal journal = Journal::create(folder() / "a/b/c", identity, plan);
+    write(folder() / "a/mine", "");
+    journal.remove();
+    EXPECT_TRUE(fs::exists(folder() / "a/mine"));
+    EXPECT_FALSE(fs::exists(folder() / "a/b"));
+}
+
+TEST_F(JournalTest, AJournalThatCannotBeginLeavesNoFolder) {
+    fs::create_directory(folder());
+    const fs::path bad = folder() / "a" / std::string(300, 'n');
+    expect_failure(Exit::file, "too long", [&] { Journal::create(bad, identity, plan); });
+    EXPECT_TRUE(fs::is_empty(folder()));
 }
 
 TEST_F(JournalTest, AFolderThatCannotBeMadeIsNamed) {

@@ -258,18 +258,25 @@ std::optional<std::string> parse_version(std::string_view text) {
     return match[1];
 }
 
-std::map<std::string, std::string> parse_ini(std::string_view text) {
-    std::map<std::string, std::string> values;
+IniSettings ini_settings(std::string_view text) {
+    IniSettings settings;
     for (const std::string& line : split_lines(text)) {
         const auto equals = line.find('=');
         if (equals == std::string::npos || line[0] == ';') continue;
-        std::string key = trim(std::string_view(line).substr(0, equals));
-        std::transform(key.begin(), key.end(), key.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
         std::string value = trim(std::string_view(line).substr(equals + 1));
         if (value.size() >= 2 && value.front() == '"' && value.back() == '"')
             value = value.substr(1, value.size() - 2);
-        values[key] = value;
+        settings.emplace_back(trim(std::string_view(line).substr(0, equals)), value);
+    }
+    return settings;
+}
+
+std::map<std::string, std::string> parse_ini(std::string_view text) {
+    std::map<std::string, std::string> values;
+    for (auto [key, value] : ini_settings(text)) {
+        std::transform(key.begin(), key.end(), key.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        values[key] = std::move(value);
     }
     return values;
 }

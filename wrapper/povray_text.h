@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mpipov {
@@ -66,7 +67,12 @@ bool is_option_error(std::string_view text);
 // "3.7.0.10.unofficial" out of `povray --version` or a render's first lines.
 std::optional<std::string> parse_version(std::string_view text);
 
-// Key -> value of the INI that POV-Ray writes with +GI: all its settings as it resolved them.
+// Keys and values of an INI file in its order, values without their quotation marks. POV-Ray writes
+// one with +GI: the settings as it resolved them (not quite all: File_Gamma is missing).
+using IniSettings = std::vector<std::pair<std::string, std::string>>;
+IniSettings ini_settings(std::string_view text);
+
+// The same as a map.
 // Keys are lower case; of repeated ones (Library_Path) the last stays.
 std::map<std::string, std::string> parse_ini(std::string_view text);
 

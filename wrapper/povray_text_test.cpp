@@ -292,6 +292,8 @@ TEST(PovrayText, SettingsOfTheIniThatPovrayWrites) {
     EXPECT_EQ(settings.at("input_file_name"), "none.pov");
     EXPECT_EQ(settings.at("library_path"), "/usr/share/povray-3.7/include");
     EXPECT_THAT(parse_ini("; a=b\n  Key = \"x=y\" \nnothing\n"), ElementsAre(Pair("key", "x=y")));
+    EXPECT_THAT(ini_settings("Key=b\nA=\"1\"\nKey=a\n"),
+                ElementsAre(Pair("Key", "b"), Pair("A", "1"), Pair("Key", "a")));
 }
 
 TEST(PovrayText, UnwrapKeepsShortLinesApart) {

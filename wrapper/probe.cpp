@@ -14,7 +14,6 @@
 #include <fstream>
 #include <iterator>
 #include <regex>
-#include <sstream>
 #include <utility>
 
 namespace mpipov {
@@ -233,11 +232,13 @@ bool same_pixels(const std::filesystem::path& a, const std::filesystem::path& b)
     }
 }
 
-int block_size(const std::filesystem::path& settings_file) {
-    std::ifstream in(settings_file);
-    std::stringstream text;
-    text << in.rdbuf();
-    const auto settings = parse_ini(text.str());
+std::string text_of(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+int block_size(const std::string& ini) {
+    const auto settings = parse_ini(ini);
     const auto found = settings.find("render_block_size");
     if (found == settings.end()) return 0;
     int size = 0;
@@ -288,7 +289,9 @@ Probe probe_once(const ProbeRequest& request) {
     result.probe_pixels = static_cast<long long>(layout.width) * layout.height;
     result.stored = {image->width, image->height, layout.channels, probe.style.type,
                      std::string(to_string(layout.depth))};
-    result.user_block = block_size(launches.settings_file());
+    const std::string settings = text_of(launches.settings_file());
+    result.user_block = block_size(settings);
+    probe.settings = ini_settings(settings);
     const bool diffused = image->dithering.find("diffusion") != std::string::npos;
     const auto others = launches.in_other_orders();
     result.order_dependent =

@@ -28,6 +28,7 @@ struct ProbeRequest {
 struct Probe {
     ProbeResult result;
     FileStyle style;
+    IniSettings settings;  // of the user's own command, with our +HI and +GI
     std::vector<std::string> warnings;
     double cpu_seconds = 0;
     int launches = 0;

@@ -4,9 +4,12 @@
 #include "cpu_time.h"
 #include "event_loop.h"
 #include "failure.h"
+#include "interrupt.h"
+#include "job_identity.h"
 #include "output_place.h"
 #include "probe.h"
 #include "progress.h"
+#include "resume.h"
 #include "scene_plan.h"
 #include "scratch.h"
 
@@ -17,6 +20,8 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <optional>
+#include <stdexcept>
 
 namespace mpipov {
 namespace {
@@ -42,6 +47,7 @@ std::vector<RankRecord> meet_ranks(const JobSetup& setup, Transport& transport,
     ranks[0] = setup.rank0;
     for (int missing = transport.size() - 1; missing > 0; --missing) {
         const auto message = wait_for_message(transport, hello_seconds);
+        throw_if_interrupted();
         if (!message)
             throw Failure(Exit::interrupted, fmt::format("{} ranks did not come up within {:.0f} s",
                                                          missing, hello_seconds));
@@ -76,27 +82,6 @@ PlanRequest plan_request(const Options& options, const std::vector<RankRecord>& 
     return request;
 }
 
-// The grid of the run that is resumed, whatever this one would have chosen.
-void take_grid(Plan& plan, const nlohmann::json& earlier) {
-    const PlanRecord record = plan_from_json(earlier);
-    plan.record.shape = record.shape;
-    plan.record.seams = record.seams;
-    plan.record.halo = record.halo;
-    plan.record.block = record.block;
-    plan.record.sections = record.sections;
-    plan.partition = make_partition(
-        {record.region, record.shape, record.seams, record.sections, record.halo, record.block});
-}
-
-nlohmann::json identity_of(const Probe& probe, const std::vector<std::string>& arguments,
-                           const std::string& povray) {
-    const ImageOptions& image = probe.result.image;
-    return {{"scene", sha1_of_file(image.input_file)},
-            {"arguments", arguments},
-            {"POV-Ray version", povray},
-            {"image size", {image.width, image.height}}};
-}
-
 JobCommand job_command(const Options& options, const std::vector<std::string>& arguments,
                        const Probe& probe, const Plan& plan) {
     JobCommand job;
@@ -110,6 +95,55 @@ JobCommand job_command(const Options& options, const std::vector<std::string>& a
         job.threads = 1;
     }
     return job;
+}
+
+CoordinatorSetup coordinator_setup(const Options& options,
+                                   const std::vector<std::string>& arguments, const Probe& probe,
+                                   const Plan& plan, const std::vector<RankRecord>& ranks) {
+    CoordinatorSetup setup;
+    setup.partition = plan.partition;
+    setup.policy = options.schedule;
+    setup.job = job_command(options, arguments, probe, plan);
+    setup.image = {plan.record.image.width, plan.record.image.height};
+    setup.ranks = ranks;
+    setup.in_flight = plan.record.in_flight;
+    setup.retries = options.retries;
+    setup.timeout_seconds = options.timeout_seconds.value_or(
+        timeout_base_seconds +
+        timeout_factor * plan.record.predicted.cpu_seconds / plan.record.sections);
+    return setup;
+}
+
+Canvas make_canvas(const PlanRecord& plan) {
+    const PixelLayout layout{plan.image.width, plan.image.height, plan.image.channels,
+                             depth_from_string(plan.image.depth)};
+    try {
+        Canvas canvas(layout);
+        canvas.make_opaque_outside(plan.region);
+        return canvas;
+    } catch (const std::runtime_error&) {
+        constexpr double gib = 1 << 30;
+        throw Failure(
+            Exit::file,
+            fmt::format("no memory for the image: rank 0 keeps its {} x {} pixels, {:.1f} GiB",
+                        layout.width, layout.height,
+                        static_cast<double>(layout.row_bytes()) * layout.height / gib));
+    }
+}
+
+std::optional<Journal> begin_journal(const Options& options, const OutputPlace& place,
+                                     const nlohmann::json& identity, const Plan& plan) {
+    if (options.resume) return Journal::open(place.work_folder(), identity);
+    if (plan.record.sections == 1) return {};
+    return Journal::create(place.work_folder(), identity, to_json(plan.record));
+}
+
+void write_record(const std::filesystem::path& file, const RunRecord& record) {
+    try {
+        write_run_record(file, record);
+    } catch (const std::runtime_error& error) {
+        throw Failure(Exit::file, error.what());
+    }
 }
 
 }  // namespace
@@ -148,81 +182,48 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     }
     place.check();
 
-    std::optional<Journal> journal;
-    const nlohmann::json identity = identity_of(probe, arguments, povray);
-    if (options.resume) {
-        journal = Journal::open(place.work_folder(), identity);
-        take_grid(plan, journal->plan());
-    } else if (plan.record.sections > 1) {
-        journal = Journal::create(place.work_folder(), identity, to_json(plan.record));
-    }
-    record.plan = plan.record;
-    record.output = place.image();
-
-    Canvas canvas({plan.record.image.width, plan.record.image.height, plan.record.image.channels,
-                   depth_from_string(plan.record.image.depth)});
-    canvas.make_opaque_outside(plan.record.region);
-    CoordinatorSetup coordination;
-    coordination.partition = plan.partition;
-    coordination.policy = options.schedule;
-    coordination.job = job_command(options, arguments, probe, plan);
-    coordination.image = {plan.record.image.width, plan.record.image.height};
-    coordination.ranks = ranks;
-    coordination.in_flight = plan.record.in_flight;
-    coordination.retries = options.retries;
-    coordination.timeout_seconds = options.timeout_seconds.value_or(
-        timeout_base_seconds +
-        timeout_factor * plan.record.predicted.cpu_seconds / plan.record.sections);
-    Coordinator coordinator(std::move(coordination), transport, canvas,
-                            journal ? &*journal : nullptr, [&clock] { return clock.seconds(); });
-
-    ProgressView progress(options.progress);
-    for (const std::string& warning : probe.warnings) progress.say("POV-Ray: " + warning);
-    for (const std::string& note : plan.notes) progress.say("mpipov: " + note);
+    Canvas canvas = make_canvas(plan.record);
+    std::optional<Journal> journal =
+        begin_journal(options, place, job_identity(probe, arguments, povray), plan);
+    std::optional<Coordinator> coordinator;
     try {
-        if (options.resume) {
-            int resumed = 0;
-            for (const Journal::Finished& finished : journal->finished()) {
-                coordinator.resume(finished.section, finished.about,
-                                   journal->read(finished.section));
-                ++resumed;
-            }
-            progress.inform(fmt::format("mpipov: {} of {} sections were finished before", resumed,
-                                     plan.record.sections));
-        }
-        coordinator.start();
-        run_event_loop({transport, worker, &coordinator, [&] {
-                            progress.update(coordinator.fraction(), coordinator.sections_done(),
-                                            coordinator.sections_total(), clock.seconds());
+        if (options.resume) take_grid(plan, *journal, options);
+        record.plan = plan.record;
+        record.output = place.image();
+        coordinator.emplace(coordinator_setup(options, arguments, probe, plan, ranks), transport,
+                            canvas, journal ? &*journal : nullptr,
+                            [&clock] { return clock.seconds(); });
+
+        ProgressView progress(options.progress);
+        for (const std::string& warning : probe.warnings) progress.say("POV-Ray: " + warning);
+        for (const std::string& note : plan.notes) progress.say("mpipov: " + note);
+        if (options.resume)
+            progress.inform(fmt::format("mpipov: {} of {} sections were finished before",
+                                        take_finished_sections(*coordinator, *journal),
+                                        plan.record.sections));
+        coordinator->start();
+        run_event_loop({transport, worker, &*coordinator, [&] {
+                            progress.update(coordinator->fraction(), coordinator->sections_done(),
+                                            coordinator->sections_total(), clock.seconds());
                         }});
-    } catch (const Failure& failure) {
-        if (coordinator.sections_done() == 0) {
-            if (journal && !options.resume) journal->remove();
-            throw;
-        }
-        if (!journal) throw;
-        throw Failure(failure.code(),
-                      fmt::format("{}; {} of {} sections are kept in '{}': go on with --resume",
-                                  failure.what(), coordinator.sections_done(),
-                                  coordinator.sections_total(), journal->folder().string()));
-    }
-    progress.finish(coordinator.sections_total(), clock.seconds());
-    coordinator.place_repairs();
+        progress.finish(coordinator->sections_total(), clock.seconds());
+        coordinator->place_repairs();
 
-    place.write([&](const std::filesystem::path& file) { write_image(canvas, probe.style, file); });
-    coordinator.fill(record);
-    for (const std::string& warning : record.warnings)
-        if (std::find(probe.warnings.begin(), probe.warnings.end(), warning) ==
-            probe.warnings.end())
-            progress.say("POV-Ray: " + warning);
-    record.complete = true;
-    record.pixel_sha1 = canvas.sha1();
-    record.totals.wall_seconds = clock.seconds();
-    record.totals.coordinator_cpu_seconds = own_cpu_seconds(RUSAGE_SELF);
-    try {
-        write_run_record(place.record(), record);
-    } catch (const std::runtime_error& error) {
-        throw Failure(Exit::file, error.what());
+        place.write(
+            [&](const std::filesystem::path& file) { write_image(canvas, probe.style, file); });
+        coordinator->fill(record);
+        for (const std::string& warning : record.warnings)
+            if (std::find(probe.warnings.begin(), probe.warnings.end(), warning) ==
+                probe.warnings.end())
+                progress.say("POV-Ray: " + warning);
+        record.complete = true;
+        record.pixel_sha1 = canvas.sha1();
+        record.totals.wall_seconds = clock.seconds();
+        record.totals.coordinator_cpu_seconds = own_cpu_seconds(RUSAGE_SELF);
+        write_record(place.record(), record);
+    } catch (const std::exception& error) {
+        throw end_of_run(error, journal ? &*journal : nullptr,
+                         coordinator ? &*coordinator : nullptr, options.resume);
     }
     if (journal) journal->remove();
 }

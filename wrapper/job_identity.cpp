@@ -1,0 +1,117 @@
+#include "job_identity.h"
+
+#include "journal.h"
+#include "scene_files.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <set>
+
+namespace mpipov {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* settings_key = "settings";
+constexpr const char* files_key = "files";
+// In which order differences are told: of those that follow from each other, the one that a user
+// would look for first.
+constexpr std::array order{"POV-Ray version", settings_key, "image size", "region", files_key};
+
+// What the probe adds to the user's own.
+bool is_ours(const std::string& key) {
+    return key == "Create_Ini" || key == "Include_Header";
+}
+
+json settings_of(const IniSettings& settings) {
+    json out = json::object();
+    for (const auto& [key, value] : settings) {
+        if (is_ours(key)) continue;
+        if (!out.contains(key))
+            out[key] = value;
+        else  // Declare, Library_Path
+            out[key] = out[key].get<std::string>() + ", " + value;
+    }
+    return out;
+}
+
+json files_of(const Probe& probe, const std::vector<std::string>& arguments) {
+    SceneRequest request;
+    request.scene = probe.result.image.input_file;
+    request.options = arguments;
+    // POV-Ray reads one of them without being told to.
+    request.options.emplace_back("povray.ini");
+    for (const auto& [key, value] : probe.settings)
+        if (key == "Library_Path") request.library_paths.emplace_back(value);
+    request.output = probe.result.image.output_file;
+    json files = json::object();
+    for (const std::filesystem::path& file : scene_files(request))
+        files[file.string()] = sha1_of_file(file);
+    return files;
+}
+
+std::string text_of(const json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+json member(const json& object, const std::string& key) {
+    return object.is_object() ? object.value(key, json()) : json();
+}
+
+std::string change_of_file(const std::string& file, const json& before, const json& after) {
+    return fmt::format("'{}' {}", file,
+                       before.is_null()  ? "was added"
+                       : after.is_null() ? "is no longer there"
+                                         : "changed");
+}
+
+std::string change_of(const std::string& name, const json& before, const json& after) {
+    return fmt::format("{} changed from {} to {}", name,
+                       before.is_null() ? "nothing" : text_of(before),
+                       after.is_null() ? "nothing" : text_of(after));
+}
+
+std::set<std::string> keys_of(const json& a, const json& b) {
+    std::set<std::string> keys;
+    for (const json* object : {&a, &b})
+        if (object->is_object())
+            for (const auto& [key, value] : object->items()) keys.insert(key);
+    return keys;
+}
+
+}  // namespace
+
+json job_identity(const Probe& probe, const std::vector<std::string>& arguments,
+                  const std::string& povray_version) {
+    const ImageOptions& image = probe.result.image;
+    const Rect& region = image.region;
+    return {{order[0], povray_version},
+            {settings_key, settings_of(probe.settings)},
+            {"image size", fmt::format("{} x {}", image.width, image.height)},
+            {"region", fmt::format("columns {} to {}, rows {} to {}", region.x0 + 1, region.x1,
+                                   region.y0 + 1, region.y1)},
+            {files_key, files_of(probe, arguments)},
+            {"arguments", fmt::format("'{}'", fmt::join(arguments, " "))}};
+}
+
+std::string what_changed(const json& earlier, const json& now) {
+    std::vector<std::string> keys(order.begin(), order.end());
+    for (const std::string& key : keys_of(earlier, now))
+        if (std::find(order.begin(), order.end(), key) == order.end()) keys.push_back(key);
+    for (const std::string& key : keys) {
+        const json before = member(earlier, key), after = member(now, key);
+        if (before == after) continue;
+        if (key != files_key && key != settings_key) return change_of("the " + key, before, after);
+        for (const std::string& name : keys_of(before, after)) {
+            const json one = member(before, name), other = member(after, name);
+            if (one == other) continue;
+            return key == files_key ? change_of_file(name, one, other)
+                                    : change_of(name, one, other);
+        }
+        return change_of("the " + key, before, after);
+    }
+    return {};
+}
+
+}  // namespace mpipov
