@@ -1,6 +1,7 @@
 """docs/seams.md out of the records of seams_survey.py: what is said there, and its tables."""
 
 import json
+import textwrap
 from collections import Counter
 from statistics import median
 
@@ -142,6 +143,10 @@ def self_check_table(cases):
                   "not checked and not right"], rows)
 
 
+def filled(text):
+    return textwrap.fill(" ".join(text.split()), 100, break_on_hyphens=False)
+
+
 def answer(cases):
     """What the figures say of the 1999 paper's "not noticeable"."""
     plain = [case for case in cases if case.kind == "plain"]
@@ -151,7 +156,7 @@ def answer(cases):
     steps = [step for step in (case.step() for case in differ) if None not in step]
     aligned = [case for case in cases if case.kind == "aligned"]
     share = 100 * max(case.differing / case.pixels for case in plain)
-    return f"""The 1999 paper cut images as `plain` does, with antialiasing of method 1, and found its
+    return filled(f"""The 1999 paper cut images as `plain` does, with antialiasing of method 1, and found its
 seams not noticeable. In {most} tiles {len(differ)} of {len(many)} such scenes differ from the serial
 render, {sum(case.largest >= CLEAR for case in many)} of them by {CLEAR} levels or more in some pixel:
 measurable nearly always. But it is few pixels ({share:.1f} % of the picture at most, in any cut),
@@ -165,7 +170,7 @@ for an eye that has no serial render to compare with, and for nothing else. On t
 nothing to notice: {sum(not case.differing for case in aligned)} of {len(aligned)} aligned images are
 the serial render bit for bit, at no cost; the others differ in
 {max(case.differing for case in aligned)} pixel at most, which the shadow cache decides
-([povray.md](povray.md))."""
+([povray.md](povray.md)).""")
 
 
 def scene_rows(cases):
@@ -194,22 +199,25 @@ def page(records, left_out, size):
     broken = [(name, record["failure"] or "interrupted") for name, _, record in records
               if not record["complete"] or record["failure"]]
     rejected = "".join(f"- {name}: {why}\n" for name, why in [*broken, *left_out])
-    return f"""# What cutting an image up does at the seams
-
-Made by `ci/seams_survey.py table` from the records of `ci/seams_survey.py run`, POV-Ray
+    made = filled(f"""Made by `ci/seams_survey.py table` from the records of `ci/seams_survey.py run`, POV-Ray
 {versions['povray']}: {len(complete) - debian} scenes of our own with the options of
 `scenes/scenes.json`, and {debian} of Debian's examples with `+A0.1 +AM1`, {size[0]} x {size[1]}
 pixels, in 2, 8 and 32 tiles, compared with the serial render by `mpipov-validate seams`: plain and
 aligned with POV-Ray's default blocks, halo with the render in one block. Differences are in levels
-of 255.
+of 255.""")
+    return f"""# What cutting an image up does at the seams
+
+{made}
 
 ## Is it noticeable?
 
 {answer(cases['exact'])}
 
 In scenes with noise of their own the tests below find most plain seams, since single pixels of edges
-lie far outside that noise; aligned and halo seams pass, but where radiosity has a cache for each
-section: there the brightness steps at the seams by more than between serial renders.
+lie far outside that noise, and so does a halo of one pixel in some. Aligned seams pass, but where
+radiosity has a cache for each section: there the brightness steps at the seams by more than between
+serial renders. A halo of 2 or 4 passes there too, with a test of less power: three noises add up
+where the reference in one block is not the one that the noise was measured with.
 
 ## Scenes whose pixels do not depend on the order of rendering: {len(names['exact'])}
 
