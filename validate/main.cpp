@@ -5,6 +5,7 @@
 #include "noise_command.h"
 #include "report_command.h"
 #include "seams_command.h"
+#include "speedup_command.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -31,7 +32,8 @@ int run(int argc, char** argv) {
     program.require_subcommand(1);
     const std::vector<mpipov::Command> commands{
         mpipov::add_compare_command(program), mpipov::add_noise_command(program),
-        mpipov::add_seams_command(program), mpipov::add_report_command(program)};
+        mpipov::add_seams_command(program), mpipov::add_speedup_command(program),
+        mpipov::add_report_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version

@@ -1,0 +1,233 @@
+#include "speedup_run.h"
+
+#include "compare.h"
+#include "interrupt.h"
+#include "json_output.h"
+#include "povray_command.h"
+#include "povray_text.h"
+#include "probe.h"
+#include "run_child.h"
+#include "run_record.h"
+#include "scratch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+namespace mpipov {
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = SpeedupVariant::Kind;
+
+std::string cpu_name() {
+    std::ifstream in("/proc/cpuinfo");
+    for (std::string line; std::getline(in, line);)
+        if (line.rfind("model name", 0) == 0)
+            if (const auto at = line.find(": "); at != std::string::npos)
+                return line.substr(at + 2);
+    return {};
+}
+
+std::optional<double> load_average() {
+    double load = 0;
+    return getloadavg(&load, 1) == 1 ? std::optional(load) : std::nullopt;
+}
+
+// Why a command failed that ended so; empty where it did not.
+std::string failure_of(const SpeedupVariant& variant, const SpeedupTools& tools,
+                       const ChildResult& result, const std::string& output) {
+    if (result.exit_code == 0) return {};
+    if (result.signal) return fmt::format("ended by signal {}", *result.signal);
+    const bool not_found = result.exit_code == 127;
+    switch (variant.kind) {
+        case Kind::serial:
+        case Kind::threads:
+            if (not_found)
+                return fmt::format(
+                    "cannot start '{}': is POV-Ray installed, or named with --povray?",
+                    tools.povray);
+            return fmt::format("POV-Ray: {}", parse_error(output));
+        case Kind::bands:
+            if (const auto at = output.find("oiiotool ERROR"); at != std::string::npos)
+                return output.substr(at, output.find('\n', at) - at);
+            return not_found ? last_line(output) : fmt::format("POV-Ray: {}", parse_error(output));
+        case Kind::mpipov:
+            break;
+    }
+    if (not_found)
+        return fmt::format("cannot start '{}': is MPI installed, or named with --mpiexec?",
+                           tools.mpiexec);
+    return fmt::format("mpipov failed: {}", last_line(output));
+}
+
+class SpeedupRun {
+  public:
+    SpeedupRun(const SpeedupRequest& request, SpeedupReport& report)
+        : request_(request), report_(report) {}
+
+    Exit run() {
+        save();
+        try {
+            ask_scene();
+            for (const SpeedupVariant& variant : speedup_variants(request_.choice))
+                report_.rows.push_back({variant, {}, {}, {}, {}, {}, {}});
+            for (int i = 0; i < request_.repeat; ++i) repetition(i);
+        } catch (const Failure& failure) {
+            report_.failure = failure.what();
+            save();
+            throw;
+        }
+        report_.complete = true;
+        save();
+        return outcome();
+    }
+
+  private:
+    void save() const { write_json((request_.folder / "speedup.json").string(), to_json(report_)); }
+
+    void ask_scene() {
+        report_.versions["povray"] = povray_version(request_.tools.povray);
+        const Probe probe = run_probe({request_.tools.povray,
+                                       quote_arguments(request_.arguments),
+                                       scratch_.path() / "probe",
+                                       {}});
+        const ImageOptions& image = probe.result.image;
+        scene_ = {request_.arguments, image.width, image.region,
+                  fs::path(image.output_file).extension().string()};
+        report_.file = image.input_file;
+        report_.scene = fs::path(image.input_file).stem().string();
+        report_.order_dependent = probe.result.order_dependent;
+    }
+
+    void repetition(int index) {
+        report_.repetitions.push_back({{}, load_average()});
+        for (SpeedupRow& row : report_.rows) row.times.emplace_back();
+        for (const std::size_t at : run_order(report_.rows.size(), index, request_.repeat)) {
+            SpeedupRow& row = report_.rows[at];
+            if (!row.failure.empty()) continue;
+            throw_if_interrupted();
+            report_.repetitions.back().order.push_back(row.variant.name());
+            try {
+                measure(row);
+                fmt::print(stderr, "repetition {} of {}: {} {:.2f} s\n", index + 1, request_.repeat,
+                           row.variant.name(), *row.times.back());
+            } catch (const Failure& failure) {
+                // Without the serial render there is nothing to measure against.
+                if (failure.code() == Exit::interrupted || row.variant.kind == Kind::serial) throw;
+                row.failure = failure.what();
+                row.times.back().reset();
+                if (failed_ == Exit::ok) failed_ = failure.code();
+                fmt::print(stderr, "{} failed: {}\n", row.variant.name(), row.failure);
+            }
+            save();
+        }
+    }
+
+    void measure(SpeedupRow& row) {
+        const SpeedupVariant& variant = row.variant;
+        if (variant.kind == Kind::bands && variant.ranks > scene_.region.height())
+            throw Failure(Exit::usage, fmt::format("{} rows cannot be cut into {} bands",
+                                                   scene_.region.height(), variant.ranks));
+        const fs::path place = scratch_.path() / variant.name();
+        std::error_code error;
+        fs::remove_all(place, error);
+        if (!fs::create_directories(place, error))
+            throw Failure(Exit::file,
+                          fmt::format("cannot make '{}': {}", place.string(), error.message()));
+        const fs::path record = request_.folder / (variant.name() + ".run.json");
+        if (variant.kind == Kind::mpipov) fs::remove(record, error);
+
+        ChildRequest child;
+        row.argv = speedup_command(variant, request_.tools, scene_, place, record);
+        child.argv = row.argv;
+        std::string output;
+        const ChildResult result = run_child(child, &output);
+        if (const std::string why = failure_of(variant, request_.tools, result, output);
+            !why.empty())
+            throw Failure(failure_code(variant, result, output), why);
+        row.times.back() = result.wall_seconds;
+
+        if (variant.kind == Kind::mpipov) read_record(row, record);
+        look_at_image(row, place / ("image" + scene_.extension));
+        fs::remove_all(place, error);
+    }
+
+    static Exit failure_code(const SpeedupVariant& variant, const ChildResult& result,
+                             const std::string& output) {
+        if (variant.kind != Kind::mpipov)
+            return result.exit_code && is_option_error(output) ? Exit::usage : Exit::scene;
+        for (const Exit code : {Exit::usage, Exit::file})
+            if (result.exit_code == static_cast<int>(code)) return code;
+        return result.exit_code == 127 ? Exit::file : Exit::scene;
+    }
+
+    void read_record(SpeedupRow& row, const fs::path& record) {
+        try {
+            const RunRecord run = read_run_record(record);
+            row.record = record;
+            row.plan = {run.plan.sections, run.plan.threads, run.plan.in_flight};
+            report_.versions.insert(run.versions.begin(), run.versions.end());
+        } catch (const std::exception& problem) {
+            throw Failure(Exit::file, problem.what());
+        }
+    }
+
+    // The first serial image is what all later ones, serial ones too, are compared with.
+    void look_at_image(SpeedupRow& row, const fs::path& image) {
+        if (serial_image_.empty()) {
+            serial_image_ = scratch_.path() / "reference" / image.filename();
+            std::error_code error;
+            fs::create_directories(serial_image_.parent_path(), error);
+            fs::rename(image, serial_image_, error);
+            if (error)
+                throw Failure(Exit::file, fmt::format("POV-Ray wrote no '{}': {}", image.string(),
+                                                      error.message()));
+            report_.image = ImageSource(serial_image_).format();
+            row.difference = SpeedupDifference{};
+            return;
+        }
+        const Metrics metrics = compare_images({serial_image_, image, {}}).metrics;
+        SpeedupDifference found{metrics.counts.differing, metrics.all.max()};
+        if (!row.difference || found.differing >= row.difference->differing) {
+            if (row.difference && found.largest < row.difference->largest)
+                found.largest = row.difference->largest;
+            row.difference = found;
+        }
+    }
+
+    Exit outcome() const {
+        if (failed_ != Exit::ok) return failed_;
+        const bool broken =
+            std::any_of(report_.rows.begin(), report_.rows.end(), [&](const SpeedupRow& row) {
+                return row.variant.kind == Kind::mpipov && row.difference &&
+                       row.difference->differing > 0;
+            });
+        return broken && !report_.order_dependent ? Exit::differ : Exit::ok;
+    }
+
+    const SpeedupRequest& request_;
+    SpeedupReport& report_;
+    const ScratchFolder scratch_{"speedup"};
+    SpeedupScene scene_;
+    fs::path serial_image_;
+    Exit failed_ = Exit::ok;  // of the first variant that failed
+};
+
+}  // namespace
+
+Exit run_speedup(const SpeedupRequest& request, SpeedupReport& report) {
+    report.folder = request.folder;
+    report.arguments = request.arguments;
+    report.repeat = request.repeat;
+    report.versions["mpipov"] = MPIPOV_VERSION;
+    report.cores = static_cast<int>(std::thread::hardware_concurrency());
+    report.cpu = cpu_name();
+    return SpeedupRun(request, report).run();
+}
+
+}  // namespace mpipov
