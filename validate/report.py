@@ -20,9 +20,10 @@ import sys
 import jinja2
 
 sys.dont_write_bytecode = True
+import report_plots as plots  # noqa: E402
 from report_cases import VERDICTS, severity  # noqa: E402
 from report_scenes import noise_of, scene_view  # noqa: E402
-from report_text import at, count, listing, rounded, text, texts  # noqa: E402
+from report_text import NONE, at, count, listing, number, rounded, text, texts, whole  # noqa: E402
 
 
 def hopeless_scene(entry, problem):
@@ -76,12 +77,50 @@ def heading_of(entry):
             "problems": texts(at(entry, "problems"))}
 
 
+def speedup_plot_of(rows):
+    """Speed-up against serial by ranks, a curve for each way to render; None without any."""
+    curves = {}
+    for row in rows:
+        ranks, found = whole(at(row, "ranks")), number(at(row, "speedup"))
+        if ranks is None or ranks < 1 or found is None or at(row, "kind") == "serial":
+            continue
+        low, high = (number(at(row, key)) for key in ("speedup_low", "speedup_high"))
+        point = (ranks, found, min(found, found if low is None else low),
+                 max(found, found if high is None else high))
+        curves.setdefault(text(at(row, "what"), "?"), []).append(point)
+    if not curves:
+        return None
+    return plots.speedup_by_ranks([(what, sorted(points)) for what, points in curves.items()])
+
+
+def image_note(row):
+    """Whether the image was the serial one."""
+    if at(row, "identical") is True:
+        return "identical"
+    differing = count(at(row, "differing"))
+    return f"{differing} pixels differ" if at(row, "identical") is False else NONE
+
+
+def speedup_spread(row):
+    low, high = at(row, "speedup_low"), at(row, "speedup_high")
+    return "" if number(low) is None or number(high) is None else f"{rounded(low)}..{rounded(high)}"
+
+
 def speedup_of(entry):
-    return {**heading_of(entry),
+    rows = listing(at(entry, "data", "rows"))
+    view = heading_of(entry)
+    if at(entry, "data", "complete") is False:
+        why = text(at(entry, "data", "failure"))
+        view["problems"].append("not complete" + (f": {why}" if why else ""))
+    view["problems"] += [f"{text(at(row, 'name'), '?')}: {text(at(row, 'failure'))}"
+                         for row in rows if text(at(row, "failure"))]
+    return {**view, "plot": speedup_plot_of(rows),
             "rows": [{"what": text(at(row, "what"), "?"), "ranks": count(at(row, "ranks")),
+                      "image": image_note(row),
+                      "spread": speedup_spread(row),
                       **{key: rounded(at(row, key)) for key in (
                           "median_seconds", "low", "high", "speedup", "efficiency")}}
-                     for row in listing(at(entry, "data", "rows"))]}
+                     for row in rows]}
 
 
 def noise_page_of(entry):

@@ -66,3 +66,28 @@ def error_by_distance(curves, band, unit, band_label):
     axes.set_axisbelow(True)
     axes.legend(fontsize=8.5, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncol=2)
     return _data_uri(figure, pyplot)
+
+
+def speedup_by_ranks(curves):
+    """curves: [(label, [(ranks, speed-up, lowest, highest)])], not empty, sorted by ranks."""
+    pyplot = _pyplot()
+    figure, axes = pyplot.subplots(figsize=(6.6, 3.4 + 0.17 * len(curves)), layout="constrained")
+    ranks = sorted({point[0] for _, points in curves for point in points} | {1})
+    axes.plot([0, ranks[-1]], [0, ranks[-1]], ":", color=INK, alpha=0.5, linewidth=1.2,
+              label="ideal")
+    for i, (label, points) in enumerate(curves):
+        n, found, low, high = zip(*points)
+        spread = [[f - w for f, w in zip(found, low)], [h - f for f, h in zip(found, high)]]
+        axes.errorbar(n, found, yerr=spread, color=COLOURS[i % len(COLOURS)], label=label,
+                      linestyle=["-", "--", ":"][i // len(COLOURS) % 3], marker="o", markersize=3.5,
+                      capsize=3, elinewidth=0.9)
+    if len(ranks) <= 12:
+        axes.set_xticks(ranks)
+    axes.set_xlim(left=0)
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel("processors")
+    axes.set_ylabel("speed-up against povray +WT1")
+    axes.grid(axis="y", color=INK, alpha=0.13, linewidth=0.7)
+    axes.set_axisbelow(True)
+    axes.legend(fontsize=8.5, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncol=2)
+    return _data_uri(figure, pyplot)

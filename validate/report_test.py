@@ -316,10 +316,30 @@ class Page(unittest.TestCase):
         rows = [{"what": "dynamic", "ranks": 4, "median_seconds": 3.25, "low": 3.125, "high": 3.5,
                  "speedup": 3.75, "efficiency": 0.9375}, {"what": "odd"}]
         page = self.page({"scene": "cube", "rows": rows}, kind="speedup")
-        self.assertIn("dynamic 4 3.25 3.12 3.50 3.75 0.938", page.text)
-        self.assertIn("odd – – – – – –", page.text)
+        self.assertIn("dynamic 4 3.25 3.12 3.50 3.75 0.938 –", page.text)
+        self.assertIn("odd – – – – – – –", page.text)
         page = self.page({"noise": {"renders": [{"name": "RP5", "mean": 0.625}]}}, kind="noise")
         self.assertIn("RP5 0.625", page.text)
+
+    def test_speedup_plot_images_and_failures(self):
+        rows = [{"what": "serial", "kind": "serial", "ranks": 1, "speedup": 1},
+                {"what": "b", "ranks": 2, "speedup": 1.5, "speedup_low": 1.25, "speedup_high": 2,
+                 "identical": False, "differing": 12},
+                {"what": "b", "ranks": 1, "speedup": 0.75, "identical": True},
+                {"what": EVIL, "name": EVIL, "ranks": 1, "speedup": None, "failure": EVIL},
+                {"what": "b", "ranks": "x", "speedup": float("nan")}, 7]
+        data = {"scene": "cube", "rows": rows, "complete": False, "failure": "interrupted"}
+        with unittest.mock.patch("report_plots.speedup_by_ranks", return_value="data:,") as plot:
+            page = self.page(data, kind="speedup")
+        plot.assert_called_once_with([("b", [(1, 0.75, 0.75, 0.75), (2, 1.5, 1.25, 2)])])
+        self.assertIn("not complete: interrupted", page.text)
+        self.assertIn("1.50 1.25..2.00", page.text)
+        self.assertIn("12 pixels differ", page.text)
+        self.assertIn("identical", page.text)
+        source = self.source(data, kind="speedup")
+        self.assertNotIn("<script>alert", source)
+        self.assertIn("data:image/svg+xml", source)
+        self.assertNotIn("with the ideal line", self.source({"rows": []}, kind="speedup"))
 
     def run_program(self, *arguments):
         return subprocess.run([sys.executable, report.__file__, *map(str, arguments)],
