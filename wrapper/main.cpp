@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <malloc.h>
 #include <mpi.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include <array>
@@ -52,8 +53,20 @@ void print_versions(const std::string& povray) {
                mpi_version(), OIIO_VERSION_STRING);
 }
 
+// This thread and every process that it starts. Where the kernel refuses, --slots is a wish.
+void keep_to(const std::vector<int>& cpus) {
+    if (cpus.empty()) return;
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    for (const int cpu : cpus) CPU_SET(cpu, &set);
+    sched_setaffinity(0, sizeof set, &set);
+}
+
 RankRecord about_this_rank(const Options& options, int rank) {
     const HostShare share = host_share();
+    // A launch more than there are slots is under way while others start up (--in-flight): only the
+    // kernel can keep them all to so many cores.
+    if (options.slots) keep_to(slot_cpus(share.cpus, share.local_rank, *options.slots));
     return {rank, host_name(), options.slots.value_or(fair_slots(share.cpus, share.local_rank)), 0,
             0};
 }

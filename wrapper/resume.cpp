@@ -70,7 +70,7 @@ int take_finished_sections(Coordinator& coordinator, const Journal& journal) {
 
 Failure end_of_run(const std::exception& error, Journal* journal, const Coordinator* coordinator,
                    bool resumed) {
-    const Failure failure = as_failure(error);
+    Failure failure = as_failure(error);
     const int done = coordinator != nullptr ? coordinator->sections_done() : 0;
     if (journal == nullptr) return failure;
     if (done > 0)

@@ -31,9 +31,15 @@ std::string describe_end(const ChildProcess& child) {
 }  // namespace
 
 std::filesystem::path find_image(const std::filesystem::path& base) {
-    for (const auto& entry : std::filesystem::directory_iterator(base.parent_path()))
-        if (entry.path().stem() == base.filename() && entry.path().extension() != ".pov-state")
+    const std::string name = base.filename();
+    for (const auto& entry : std::filesystem::directory_iterator(base.parent_path())) {
+        const std::string stem = entry.path().stem();
+        // A frame of an animation has its number behind the name.
+        if (stem.compare(0, name.size(), name) == 0 &&
+            stem.find_first_not_of("0123456789", name.size()) == std::string::npos &&
+            entry.path().extension() != ".pov-state")
             return entry.path();
+    }
     throw std::runtime_error("POV-Ray wrote no image");
 }
 

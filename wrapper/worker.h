@@ -77,8 +77,9 @@ class Worker {
     bool stopped_ = false;
 };
 
-// The image that POV-Ray made of the output name `base`: it adds an extension that we do not know,
-// and may put files of other names beside it (+GA). Throws std::runtime_error where there is none.
+// The image that POV-Ray made of the output name `base`: it adds an extension that we do not know
+// (and the number of a frame), and may put files of other names beside it (+GA). Throws
+// std::runtime_error where there is none.
 std::filesystem::path find_image(const std::filesystem::path& base);
 
 }  // namespace mpipov

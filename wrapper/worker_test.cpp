@@ -293,6 +293,9 @@ TEST_F(WorkerTest, FindsTheImageBesideItsState) {
     EXPECT_THROW(find_image(base), std::runtime_error);
     write_text(elsewhere_.path() / "section.png", "");
     EXPECT_EQ(find_image(base), elsewhere_.path() / "section.png");
+    write_text(elsewhere_.path() / "frame07.png", "");
+    EXPECT_EQ(find_image(elsewhere_.path() / "frame"), elsewhere_.path() / "frame07.png");
+    EXPECT_THROW(find_image(elsewhere_.path() / "fra"), std::runtime_error);
 }
 
 }  // namespace
