@@ -232,6 +232,9 @@ TEST(Decide, SaysWhatIsPromised) {
         EXPECT_FALSE(decide(request).ok);
         request.sees_blocks = true;
         EXPECT_TRUE(decide(request).ok);
+        request.worst_section_share = 0.5;
+        EXPECT_FALSE(decide(request).ok) << "no antialiasing changes half of a section";
+        request.worst_section_share = 0.05;
     }
     request.exact_scene = false;
     EXPECT_FALSE(decide(request).ok);

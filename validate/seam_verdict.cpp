@@ -67,6 +67,11 @@ Verdict decide(const VerdictRequest& request) {
         return {Verdict::Kind::identical, true, "no pixel differs from the serial render"};
     if (request.judgement) return judged(*request.judgement);
     const std::string found = fmt::format("{} pixels differ", request.differing);
+    constexpr double most_of_a_section = 0.25;
+    if (request.worst_section_share > most_of_a_section)
+        return {Verdict::Kind::differs, false,
+                fmt::format("{}, {:.0f} % of a section: more than antialiasing at its edges does",
+                            found, 100 * request.worst_section_share)};
     if (!request.exact_scene)
         return {Verdict::Kind::differs, false,
                 found + ", and too few different serial renders exist to tell noise from damage"};

@@ -58,10 +58,9 @@ std::vector<SeamKind> seams_of(const std::string& text) {
 std::vector<std::string> schedules_of(const std::string& text) {
     std::vector<std::string> schedules = split_list("--schedule", text);
     for (const std::string& piece : schedules)
-        if (piece != "static" && piece != "dynamic" && piece != "cost")
-            throw Failure(
-                Exit::usage,
-                fmt::format("--schedule: '{}' is not one of static, dynamic, cost", piece));
+        if (piece != "static" && piece != "dynamic")
+            throw Failure(Exit::usage,
+                          fmt::format("--schedule: '{}' is not one of static, dynamic", piece));
     return schedules;
 }
 
@@ -102,7 +101,7 @@ Command add_seams_command(CLI::App& program) {
         app->add_option(name, value, text)->type_name("LIST")->capture_default_str();
     };
     list("--ranks", options->ranks, "numbers of MPI ranks");
-    list("--schedule", options->schedule, "static, dynamic, cost");
+    list("--schedule", options->schedule, "static, dynamic");
     list("--shape", options->shape, "columns, rows, tiles");
     list("--seams", options->seams, "aligned, halo:N, plain");
     list("--sections", options->sections, "numbers of sections; those that cannot be are left out");

@@ -70,6 +70,28 @@ TEST_F(RenderPrograms, DamageInAnExactSceneIsFound) {
     EXPECT_FALSE(found["cases"][0]["verdict"]["ok"].get<bool>());
 }
 
+// Plain seams with antialiasing of method 1 may differ, but not by everything.
+TEST_F(RenderPrograms, DamageIsFoundWherePlainSeamsMayDiffer) {
+    program("damaging-mpiexec",
+            "mpiexec \"$@\" || exit\n"
+            "for last; do :; done\n"
+            "cp other.png \"${last#+O}.png\"\n");
+    ChildRequest other;
+    other.argv = {"povray",     scene("basic/spheres.pov"), "+W64", "+H48", "-A", "+WT1", "-D",
+                  "+Oother.png"};
+    other.working_directory = folder_.path();
+    ASSERT_EQ(run_to_end(other, &output_).exit_code, 0) << output_;
+    EXPECT_EQ(run({"seams", scene("basic/checker.pov"), "+W64", "+H48", "+A0.3", "+AM1", "--out",
+                   "out", "--ranks", "1", "--sections", "2", "--seams", "plain", "--mpiexec",
+                   "./damaging-mpiexec"}),
+              1)
+        << output_;
+    EXPECT_EQ(run({"seams", scene("basic/checker.pov"), "+W64", "+H48", "+A0.3", "+AM1", "--out",
+                   "out", "--ranks", "1", "--sections", "2", "--seams", "plain"}),
+              0)
+        << output_;
+}
+
 TEST_F(RenderPrograms, AFailedCaseIsWritten) {
     program("broken-mpiexec", "echo it went up in smoke\nexit 7\n");
     EXPECT_EQ(run({"seams", scene("effects/none.pov"), "+W64", "+H48", "--out", "out", "--ranks",
@@ -151,6 +173,12 @@ TEST_F(RenderPrograms, UsageErrors) {
     EXPECT_THAT(output_, HasSubstr("--nonsense"));
     EXPECT_EQ(run({"seams", "scene.pov", "--out", "out", "--ranks", "1,x"}), 2);
     EXPECT_EQ(run({"seams", "scene.pov", "--out", "out", "--seams", "halo:0"}), 2);
+    EXPECT_EQ(run({"seams", "scene.pov", "--out", "out", "--schedule", "cost"}), 2);
+    EXPECT_EQ(run({"seams", scene("effects/none.pov"), "+W64", "+H48", "-A", "--out", "out",
+                   "--ranks", "1", "--sections", "5000", "--seams", "aligned"}),
+              2)
+        << "of no grid that can be";
+    EXPECT_THAT(output_, HasSubstr("nothing was judged"));
     EXPECT_EQ(run({"noise", "scene.pov", "--renders", "1"}), 2);
     EXPECT_EQ(run({"seams", "--help"}), 0);
 }

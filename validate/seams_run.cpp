@@ -33,6 +33,10 @@ class SeamsRun {
         }
         report_.complete = true;
         save();
+        if (report_.cases.empty() && !report_.skipped.empty())
+            throw Failure(Exit::usage,
+                          fmt::format("nothing was judged: {}: {}", report_.skipped.front().name,
+                                      report_.skipped.front().why));
         return outcome_;
     }
 
@@ -187,7 +191,17 @@ class SeamsRun {
             one.judgement = judge_->judge(request);
         }
         one.verdict = decide({one.comparison->identical(), one.comparison->metrics.counts.differing,
-                              one.seams, blocks, is_exact(serial.noise), one.judgement});
+                              one.seams, blocks, is_exact(serial.noise),
+                              worst_section_share(*one.comparison), one.judgement});
+    }
+
+    static double worst_section_share(const Comparison& comparison) {
+        double worst = 0;
+        if (comparison.seams)
+            for (const SectionErrors& section : comparison.seams->sections)
+                worst = std::max(worst, static_cast<double>(section.group.counts.differing) /
+                                            static_cast<double>(section.group.counts.pixels));
+        return worst;
     }
 
     // At the end and all at once. Missing it is told in its place, and no reason for no verdict.

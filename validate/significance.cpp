@@ -43,13 +43,16 @@ std::vector<double> TailSample::largest() const {
 }
 
 double critical_value(const TailSample& quiet, double p, double theoretical) {
-    constexpr std::size_t of_the_tail = 20, fewest = 8;
+    // Of the values the largest in a hundred are a tail; more of them, and Hill's estimate is of
+    // the body, and far too large.
+    constexpr std::size_t of_the_tail = 20, fewest = 8, tail_is_one_in = 100;
     constexpr double one_sided_95 = 1.645;
     const std::vector<double> x = quiet.largest();
-    const auto quarter = static_cast<std::size_t>(quiet.count() / 4);
-    if (x.size() < fewest) return theoretical;
-    const std::size_t m = std::min({of_the_tail, quarter, x.size() - 1});
-    if (m < 2 || !(x[m] > 0) || !std::isfinite(x[0])) return theoretical;
+    if (x.size() < fewest || !std::isfinite(x[0])) return theoretical;
+    const auto tail = static_cast<std::size_t>(quiet.count()) / tail_is_one_in;
+    const std::size_t m = std::min({of_the_tail, tail, x.size() - 1});
+    if (m < fewest) return std::max(theoretical, x[0]);
+    if (!(x[m] > 0)) return theoretical;
     double xi = 0;
     for (std::size_t i = 0; i < m; ++i) xi += std::log(x[i] / x[m]);
     xi /= static_cast<double>(m);

@@ -31,10 +31,10 @@ class TailSample {
 
 // The value that one of the population of `quiet` exceeds with probability p, where p may be less
 // than 1 / count: Weissman's estimate, x(m+1) (m / (count p))^xi, with Hill's
-// xi = mean over i <= m of log(x(i) / x(m+1)), m = 20 (fewer where the sample is small: a quarter
-// of it), taken at the upper end of its one-sided 95 % interval, xi (1 + 1.645 / sqrt(m)). Never
-// less than `theoretical`, which is also the answer where the sample is too small (fewer than 8
-// values) or has no tail.
+// xi = mean over i <= m of log(x(i) / x(m+1)), m = 20 (fewer where the sample is small: one in a
+// hundred), taken at the upper end of its one-sided 95 % interval, xi (1 + 1.645 / sqrt(m)). A
+// sample too small for that (m < 8) says no more than its largest value. Never less than
+// `theoretical`, which is also the answer where there are fewer than 8 values or no tail.
 double critical_value(const TailSample& quiet, double p, double theoretical);
 
 }  // namespace mpipov

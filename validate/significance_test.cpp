@@ -63,6 +63,14 @@ TEST(CriticalValue, KeepsFalseAlarmsBelowTheSignificance) {
     EXPECT_LE(alarms, alpha * trials);
 }
 
+// Hill's estimate from the body of a distribution made a test of few values blind.
+TEST(CriticalValue, OfFewValuesIsNoMoreThanTheirLargest) {
+    TailSample quiet;
+    for (int i = 1; i <= 117; ++i) quiet.add(i / 30.0);
+    EXPECT_EQ(critical_value(quiet, 1e-4, 3.5), 117 / 30.0);
+    EXPECT_EQ(critical_value(quiet, 1e-4, 5), 5);
+}
+
 TEST(CriticalValue, IsTheoreticalWithoutATail) {
     TailSample few, zeros;
     for (int i = 0; i < 7; ++i) few.add(100);

@@ -37,10 +37,9 @@ SpeedupChoice choice_of(const SpeedupOptions& options) {
     std::sort(choice.ranks.begin(), choice.ranks.end());
     choice.schedules = each_once(split_list("--schedule", options.schedule));
     for (const std::string& schedule : choice.schedules)
-        if (schedule != "static" && schedule != "dynamic" && schedule != "cost")
-            throw Failure(
-                Exit::usage,
-                fmt::format("--schedule: '{}' is not one of static, dynamic, cost", schedule));
+        if (schedule != "static" && schedule != "dynamic")
+            throw Failure(Exit::usage,
+                          fmt::format("--schedule: '{}' is not one of static, dynamic", schedule));
     choice.dedicated = options.dedicated;
     return choice;
 }
@@ -86,7 +85,7 @@ Command add_speedup_command(CLI::App& program) {
     app->add_option("--repeat", options->repeat, "how often each is run")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    app->add_option("--schedule", options->schedule, "of mpipov: static, dynamic, cost")
+    app->add_option("--schedule", options->schedule, "of mpipov: static, dynamic")
         ->type_name("LIST")
         ->capture_default_str();
     app->add_flag("--dedicated", options->dedicated,
