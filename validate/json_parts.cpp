@@ -10,6 +10,10 @@ json number_json(const std::optional<double>& value) {
     return value && std::isfinite(*value) ? json(*value) : json();
 }
 
+json text_json(const std::string& value) {
+    return value.empty() ? json() : json(value);
+}
+
 json rect_json(const Rect& rect) {
     if (rect.empty()) return nullptr;
     return {{"x0", rect.x0}, {"y0", rect.y0}, {"x1", rect.x1}, {"y1", rect.y1}};

@@ -8,11 +8,14 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace mpipov {
 
 // null where there is none, or none that JSON can hold.
 nlohmann::json number_json(const std::optional<double>& value);
+// null for an empty text.
+nlohmann::json text_json(const std::string& value);
 // null for an empty one.
 nlohmann::json rect_json(const Rect& rect);
 // A seam, or a line along which one could be.

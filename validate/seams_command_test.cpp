@@ -28,6 +28,18 @@ class RenderPrograms : public ProgramTest {
         std::ofstream(file) << "#!/bin/sh\n" << script;
         fs::permissions(file, fs::perms::owner_all);
     }
+    // Runs mpiexec, and then puts another scene of 64 x 48 pixels in the image's place.
+    void make_damaging_mpiexec() {
+        program("damaging-mpiexec",
+                "mpiexec \"$@\" || exit\n"
+                "for last; do :; done\n"
+                "cp other.png \"${last#+O}.png\"\n");
+        ChildRequest other;
+        other.argv = {"povray",     scene("basic/spheres.pov"), "+W64", "+H48", "-A", "+WT1", "-D",
+                      "+Oother.png"};
+        other.working_directory = folder_.path();
+        ASSERT_EQ(run_to_end(other, &output_).exit_code, 0) << output_;
+    }
     static std::string scene(const char* name) { return fmt::format("{}/{}", MPIPOV_SCENES, name); }
 };
 
@@ -51,15 +63,7 @@ TEST_F(RenderPrograms, AnExactSceneIsIdenticalInSections) {
 
 // The image is another scene when it comes to be compared.
 TEST_F(RenderPrograms, DamageInAnExactSceneIsFound) {
-    program("damaging-mpiexec",
-            "mpiexec \"$@\" || exit\n"
-            "for last; do :; done\n"
-            "cp other.png \"${last#+O}.png\"\n");
-    ChildRequest other;
-    other.argv = {"povray",     scene("basic/spheres.pov"), "+W64", "+H48", "-A", "+WT1", "-D",
-                  "+Oother.png"};
-    other.working_directory = folder_.path();
-    ASSERT_EQ(run_to_end(other, &output_).exit_code, 0) << output_;
+    ASSERT_NO_FATAL_FAILURE(make_damaging_mpiexec());
     EXPECT_EQ(
         run({"seams", scene("effects/none.pov"), "+W64", "+H48", "-A", "--out", "out", "--ranks",
              "1", "--sections", "2", "--seams", "aligned", "--mpiexec", "./damaging-mpiexec"}),
@@ -72,15 +76,7 @@ TEST_F(RenderPrograms, DamageInAnExactSceneIsFound) {
 
 // Plain seams with antialiasing of method 1 may differ, but not by everything.
 TEST_F(RenderPrograms, DamageIsFoundWherePlainSeamsMayDiffer) {
-    program("damaging-mpiexec",
-            "mpiexec \"$@\" || exit\n"
-            "for last; do :; done\n"
-            "cp other.png \"${last#+O}.png\"\n");
-    ChildRequest other;
-    other.argv = {"povray",     scene("basic/spheres.pov"), "+W64", "+H48", "-A", "+WT1", "-D",
-                  "+Oother.png"};
-    other.working_directory = folder_.path();
-    ASSERT_EQ(run_to_end(other, &output_).exit_code, 0) << output_;
+    ASSERT_NO_FATAL_FAILURE(make_damaging_mpiexec());
     EXPECT_EQ(run({"seams", scene("basic/checker.pov"), "+W64", "+H48", "+A0.3", "+AM1", "--out",
                    "out", "--ranks", "1", "--sections", "2", "--seams", "plain", "--mpiexec",
                    "./damaging-mpiexec"}),

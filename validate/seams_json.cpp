@@ -11,10 +11,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-json text(const std::string& value) {
-    return value.empty() ? json() : json(value);
-}
-
 json pixel_json(const PixelTest& test, const ImageFormat& format) {
     json at;
     if (test.at)
@@ -115,7 +111,7 @@ json case_json(const SeamsCase& one, const fs::path& folder) {
             {"seams", to_string(one.seams)},
             {"halo", one.halo},
             {"sections", one.sections},
-            {"failure", text(one.failure)},
+            {"failure", text_json(one.failure)},
             {"image", file_json(one.image, folder)},
             {"run", file_json(one.run_file, folder)},
             {"reference", one.reference},
@@ -154,7 +150,7 @@ json to_json(const SeamsReport& report) {
             {"image", image},
             {"versions", report.versions},
             {"complete", report.complete},
-            {"failure", text(report.failure)},
+            {"failure", text_json(report.failure)},
             {"effects", effects_json(report.effects)},
             {"references", references},
             {"noise", report.serial ? to_json(report.serial->noise, report.folder) : json()},

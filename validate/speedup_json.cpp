@@ -6,10 +6,6 @@ namespace {
 
 using nlohmann::json;
 
-json text(const std::string& value) {
-    return value.empty() ? json() : json(value);
-}
-
 std::string kind_name(SpeedupVariant::Kind kind) {
     switch (kind) {
         case SpeedupVariant::Kind::serial:
@@ -34,7 +30,7 @@ json row_json(const SpeedupRow& row, const SpeedupReport& report) {
     json j = {{"name", row.variant.name()},
               {"what", row.variant.what()},
               {"kind", kind_name(row.variant.kind)},
-              {"schedule", text(row.variant.schedule)},
+              {"schedule", text_json(row.variant.schedule)},
               {"dedicated", row.variant.dedicated},
               {"ranks", row.variant.ranks},
               {"argv", row.argv},
@@ -51,7 +47,7 @@ json row_json(const SpeedupRow& row, const SpeedupReport& report) {
               {"largest", nullptr},
               {"plan", nullptr},
               {"record", file_json(row.record, report.folder)},
-              {"failure", text(row.failure)}};
+              {"failure", text_json(row.failure)}};
     if (row.difference) {
         j["identical"] = row.difference->differing == 0;
         j["differing"] = row.difference->differing;
@@ -89,10 +85,10 @@ json to_json(const SpeedupReport& report) {
             {"image", report.image ? typed_image_json(*report.image) : json()},
             {"order_dependent", report.order_dependent},
             {"versions", report.versions},
-            {"host", {{"cores", report.cores}, {"cpu", text(report.cpu)}}},
+            {"host", {{"cores", report.cores}, {"cpu", text_json(report.cpu)}}},
             {"repeat", report.repeat},
             {"complete", report.complete},
-            {"failure", text(report.failure)},
+            {"failure", text_json(report.failure)},
             {"rows", rows},
             {"repetitions", repetitions}};
 }
