@@ -5,19 +5,39 @@
 #include <stdexcept>
 
 namespace mpipov {
+namespace {
 
-std::string_view to_string(Policy policy) {
-    return policy == Policy::static_ ? "static" : "dynamic";
+bool contains(const std::vector<int>& workers, int worker) {
+    return std::find(workers.begin(), workers.end(), worker) != workers.end();
 }
 
-Schedule::Schedule(Policy policy, const std::vector<int>& sections, const std::vector<int>& lanes)
-    : lanes_(lanes), owned_(lanes.size()) {
+}  // namespace
+
+std::string_view to_string(Policy policy) {
+    switch (policy) {
+        case Policy::static_:
+            return "static";
+        case Policy::dynamic:
+            return "dynamic";
+        case Policy::cost:
+            return "cost";
+    }
+    return "";
+}
+
+Schedule::Schedule(Policy policy, const std::vector<int>& sections, const std::vector<int>& lanes,
+                   const std::vector<double>& costs)
+    : policy_(policy), lanes_(lanes), owned_(lanes.size()) {
     if (std::none_of(lanes.begin(), lanes.end(), [](int n) { return n > 0; }))
         throw std::invalid_argument("no rank is left to render");
-    for (const int section : sections) entries_[section] = {};
+    if (!costs.empty() && costs.size() != sections.size())
+        throw std::invalid_argument("each section has one cost");
+    for (std::size_t i = 0; i < sections.size(); ++i)
+        entries_[sections[i]].cost = costs.empty() ? 0 : costs[i];
     unfinished_ = static_cast<int>(entries_.size());
-    if (policy == Policy::dynamic) {
+    if (policy != Policy::static_) {
         shared_.assign(sections.begin(), sections.end());
+        sort_by_cost();
         return;
     }
     // Neighbouring sections to the same worker, each as many as it has lanes.
@@ -35,12 +55,10 @@ Schedule::Schedule(Policy policy, const std::vector<int>& sections, const std::v
 bool Schedule::may_take(int section, int worker) const {
     if (entries_.at(section).done) return false;
     const std::vector<int>& failed_on = entries_.at(section).failed_on;
-    if (std::find(failed_on.begin(), failed_on.end(), worker) == failed_on.end()) return true;
+    if (!contains(failed_on, worker)) return true;
     // It failed here: wait for somebody else, unless it has failed everywhere.
     for (std::size_t other = 0; other < lanes_.size(); ++other)
-        if (lanes_[other] > 0 && std::find(failed_on.begin(), failed_on.end(),
-                                           static_cast<int>(other)) == failed_on.end())
-            return false;
+        if (lanes_[other] > 0 && !contains(failed_on, static_cast<int>(other))) return false;
     return true;
 }
 
@@ -54,10 +72,45 @@ std::optional<int> Schedule::next(int worker) {
         if (found == queue->end()) continue;
         const int section = *found;
         queue->erase(found);
-        ++entries_[section].attempts;
-        return section;
+        return hand_out(section, worker);
     }
     return {};
+}
+
+std::optional<int> Schedule::next_copy(int worker,
+                                       const std::function<Outlook(int section)>& outlook) {
+    if (policy_ == Policy::static_ || lanes_.at(static_cast<std::size_t>(worker)) == 0) return {};
+    std::optional<int> last;
+    double longest = 0;
+    for (const auto& [section, entry] : entries_) {
+        if (entry.done || entry.under_way_on.size() != 1 || entry.under_way_on[0] == worker ||
+            contains(entry.failed_on, worker))
+            continue;
+        const Outlook seconds = outlook(section);
+        if (seconds.anew >= seconds.left || seconds.left <= longest) continue;
+        last = section;
+        longest = seconds.left;
+    }
+    if (!last) return {};
+    return hand_out(*last, worker);
+}
+
+int Schedule::hand_out(int section, int worker) {
+    Entry& entry = entries_.at(section);
+    ++entry.attempts;
+    entry.under_way_on.push_back(worker);
+    return section;
+}
+
+void Schedule::sort_by_cost() {
+    if (policy_ != Policy::cost) return;
+    std::stable_sort(shared_.begin(), shared_.end(),
+                     [this](int a, int b) { return entries_.at(a).cost > entries_.at(b).cost; });
+}
+
+void Schedule::expect(int section, double cost) {
+    entries_.at(section).cost = cost;
+    sort_by_cost();
 }
 
 void Schedule::finished(int section) {
@@ -68,8 +121,11 @@ void Schedule::finished(int section) {
 }
 
 void Schedule::failed(int section, int worker) {
-    entries_.at(section).failed_on.push_back(worker);
-    shared_.push_front(section);
+    Entry& entry = entries_.at(section);
+    entry.failed_on.push_back(worker);
+    entry.under_way_on.erase(
+        std::find(entry.under_way_on.begin(), entry.under_way_on.end(), worker));
+    if (entry.under_way_on.empty()) shared_.push_front(section);
 }
 
 void Schedule::add(int section) {

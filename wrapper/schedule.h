@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -13,29 +14,47 @@ namespace mpipov {
 enum class Policy {
     static_,  // MPIPOV1: every section belongs to a worker from the start
     dynamic,  // MPIPOV2: the next section goes to whoever is free
+    cost,     // the same, the longest first
 };
 std::string_view to_string(Policy policy);
+
+// Of a section that is under way on another worker, seconds.
+struct Outlook {
+    double left = 0;  // until it ends there
+    double anew = 0;  // what it takes the asking worker from its start
+};
 
 class Schedule {
   public:
     // `lanes[w]`: how many sections worker w renders at once; 0 for one that renders nothing.
-    // Throws std::invalid_argument where no worker renders.
-    Schedule(Policy policy, const std::vector<int>& sections, const std::vector<int>& lanes);
+    // `costs[i]`: what sections[i] is expected to take, in any unit; only Policy::cost looks at
+    // them, and without them it is Policy::dynamic.
+    // Throws std::invalid_argument where no worker renders or `costs` has another length.
+    Schedule(Policy policy, const std::vector<int>& sections, const std::vector<int>& lanes,
+             const std::vector<double>& costs = {});
 
     // The section that `worker` is to start now, if there is one for it; it is then under way.
     std::optional<int> next(int worker);
 
+    // When next() has nothing left: a second copy of the section that would end last, if the worker
+    // would have it earlier from its start. There are never more than two of a section, and none
+    // with Policy::static_, which is to be MPIPOV1. The copy is then under way too.
+    std::optional<int> next_copy(int worker, const std::function<Outlook(int section)>& outlook);
+
     // Whether it was handed out or not: it never is again.
     void finished(int section);
 
-    // Gives the section back. It goes to another worker next where there is one that has not
-    // failed it yet. The section must be under way.
+    // Gives the section back, unless a copy of it is still under way. It goes to another worker
+    // next where there is one that has not failed it yet. The section must be under way there.
     void failed(int section, int worker);
 
     // One more section (a seam that is rendered again); any worker may take it.
     void add(int section);
 
-    int attempts(int section) const;
+    // A better estimate of what a section takes that nobody has been given yet.
+    void expect(int section, double cost);
+
+    int attempts(int section) const;  // how often it was handed out, copies too
     bool all_finished() const { return unfinished_ == 0; }
     int unfinished() const { return unfinished_; }
 
@@ -43,11 +62,15 @@ class Schedule {
     struct Entry {
         int attempts = 0;
         bool done = false;
-        std::vector<int> failed_on;
+        double cost = 0;
+        std::vector<int> failed_on, under_way_on;
     };
 
     bool may_take(int section, int worker) const;
+    int hand_out(int section, int worker);
+    void sort_by_cost();
 
+    Policy policy_;
     std::vector<int> lanes_;
     std::deque<int> shared_;              // whoever is free takes the front
     std::vector<std::deque<int>> owned_;  // static: each worker's own

@@ -77,7 +77,7 @@ TEST(Schedule, CountsDownToTheEndAndTakesMore) {
 }
 
 TEST(Schedule, NeverHandsOutWhatWasFinishedBefore) {
-    for (const Policy policy : {Policy::static_, Policy::dynamic}) {
+    for (const Policy policy : {Policy::static_, Policy::dynamic, Policy::cost}) {
         Schedule s(policy, ids(4), {1, 1});
         s.finished(0);
         s.finished(2);
@@ -112,6 +112,58 @@ TEST(Schedule, EverySectionIsGivenOutOnceWhateverTheWorkers) {
                 EXPECT_EQ(std::set<int>(taken.begin(), taken.end()).size(), taken.size());
                 EXPECT_TRUE(s.all_finished());
             }
+}
+
+TEST(Schedule, CostGivesTheLongestFirst) {
+    Schedule s(Policy::cost, ids(4), {1, 1}, {1, 5, 3, 5});
+    EXPECT_EQ(s.next(1), 1) << "of equals the first";
+    EXPECT_EQ(s.next(0), 3);
+    s.expect(0, 4);
+    EXPECT_THAT(take_all(s, 0), testing::ElementsAre(0, 2));
+}
+
+TEST(Schedule, CostWithoutCostsIsDynamic) {
+    Schedule s(Policy::cost, ids(3), {1});
+    EXPECT_THAT(take_all(s, 0), testing::ElementsAre(0, 1, 2));
+    EXPECT_THROW(Schedule(Policy::cost, ids(3), {1}, {1, 2}), std::invalid_argument);
+}
+
+TEST(Schedule, AFailedSectionIsTakenBeforeLongerOnes) {
+    Schedule s(Policy::cost, ids(3), {1, 1}, {1, 2, 3});
+    ASSERT_EQ(s.next(0), 2);
+    ASSERT_EQ(s.next(0), 1);
+    s.failed(1, 0);
+    EXPECT_EQ(s.next(1), 1);
+}
+
+TEST(Schedule, CopiesTheSectionThatWouldEndLastWhereThatPays) {
+    Schedule s(Policy::dynamic, ids(3), {1, 1, 1, 1});
+    for (int worker = 0; worker < 3; ++worker) ASSERT_EQ(s.next(worker), worker);
+    ASSERT_EQ(s.next(3), std::nullopt);
+    const auto outlook = [](int section) { return Outlook{10.0 * section, 15}; };
+    EXPECT_EQ(s.next_copy(2, outlook), std::nullopt) << "its own, and others are nearer their end";
+    EXPECT_EQ(s.next_copy(3, outlook), 2);
+    EXPECT_EQ(s.attempts(2), 2);
+    EXPECT_EQ(s.next_copy(0, outlook), std::nullopt) << "there are two of it already";
+    s.finished(2);
+    EXPECT_EQ(s.unfinished(), 2);
+}
+
+TEST(Schedule, ACopyOutlivesTheFailureOfItsOriginal) {
+    Schedule s(Policy::dynamic, ids(1), {1, 1});
+    ASSERT_EQ(s.next(0), 0);
+    const auto outlook = [](int) { return Outlook{10, 1}; };
+    ASSERT_EQ(s.next_copy(1, outlook), 0);
+    s.failed(0, 0);
+    EXPECT_EQ(s.next(1), std::nullopt) << "it is still under way";
+    s.failed(0, 1);
+    EXPECT_EQ(s.next(0), 0);
+}
+
+TEST(Schedule, StaticMakesNoCopies) {
+    Schedule s(Policy::static_, ids(2), {1, 1});
+    ASSERT_EQ(s.next(0), 0);
+    EXPECT_EQ(s.next_copy(1, [](int) { return Outlook{10, 1}; }), std::nullopt);
 }
 
 }  // namespace
