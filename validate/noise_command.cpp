@@ -4,6 +4,7 @@
 #include "render_options.h"
 #include "scratch.h"
 #include "seams_report.h"
+#include "serial_stage.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -30,7 +31,12 @@ Exit run_noise(const CLI::App& app, const NoiseOptions& options) {
     request.one_block = !options.out.empty();
     const ScratchFolder scratch("noise");
     const fs::path folder = options.out.empty() ? scratch.path() : make_folder(options.out);
-    const SerialSet set = render_serial_set(request, folder);
+    const SerialStage stage(folder);
+    SerialSet set = render_serial_set(request, stage.path());
+    // An earlier noise.json must not name images of this scene, should the rest fail.
+    std::error_code ignored;
+    fs::remove(folder / "noise.json", ignored);
+    stage.keep(set);
     json result = to_json(set, request, folder);
     if (options.out.empty()) {
         // What is gone when the program ends has no name.

@@ -94,7 +94,9 @@ Command add_seams_command(CLI::App& program) {
         "says of each how far it is from the serial render: identical, within the scene's own "
         "noise, or not. All arguments that are not listed here are POV-Ray's.");
     pass_on_povray_arguments(*app);
-    app->add_option("--out", options->out, "where images, records and seams.json go")
+    app->add_option("--out", options->out,
+                    "where images, records and seams.json go; an earlier result there stays "
+                    "until a first case has been rendered")
         ->type_name("DIR")
         ->required();
     const auto list = [&](const char* name, std::string& value, const char* text) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <fstream>
+#include <iterator>
 
 namespace mpipov {
 namespace {
@@ -22,6 +23,10 @@ class RenderPrograms : public ProgramTest {
     json read(const char* name) const {
         std::ifstream in(folder_.path() / name);
         return json::parse(in);
+    }
+    std::string bytes_of(const std::string& name) const {
+        std::ifstream in(path(name), std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
     }
     void program(const char* name, const std::string& script) const {
         const fs::path file = folder_.path() / name;
@@ -107,6 +112,60 @@ TEST_F(RenderPrograms, WhatStopsEverythingIsWrittenToo) {
     EXPECT_EQ(run({"seams", "broken.pov", "+W32", "+H24", "--out", "out"}), 3) << output_;
     EXPECT_THAT(read("out/seams.json")["failure"].get<std::string>(), HasSubstr("POV-Ray: "));
     EXPECT_FALSE(read("out/seams.json")["complete"].get<bool>());
+}
+
+TEST_F(RenderPrograms, AnEarlierResultOutlivesARunThatJudgedNothing) {
+    const auto seams = [&](const std::string& file, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"seams", file,      "+W64",    "+H48",
+                                           "-A",    "--out",   "out",     "--ranks",
+                                           "1",     "--seams", "aligned", "--sections"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    };
+    ASSERT_EQ(seams(scene("effects/none.pov"), {"2"}), 0) << output_;
+    const std::vector<std::string> files{"out/seams.json", "out/serial-default.png",
+                                         "out/dynamic.np1.columns.aligned.g2/run.json",
+                                         "out/dynamic.np1.columns.aligned.g2/image.png"};
+    std::vector<std::string> earlier;
+    for (const std::string& file : files) earlier.push_back(bytes_of(file));
+    const auto unchanged = [&](const std::string& what) {
+        for (std::size_t i = 0; i < files.size(); ++i)
+            EXPECT_EQ(bytes_of(files[i]), earlier[i]) << files[i] << ": " << what;
+        EXPECT_EQ(std::distance(fs::directory_iterator(path("out")), {}), 3) << what;
+    };
+
+    EXPECT_EQ(seams("none.pov", {"2"}), 3) << output_;
+    unchanged("no such scene");
+    EXPECT_EQ(seams(scene("basic/spheres.pov"), {"2", "--mpiexec", "./none"}), 4) << output_;
+    unchanged("no such mpiexec, of another scene");
+    program("refusing-mpiexec", "echo no such grid\nexit 2\n");
+    EXPECT_EQ(seams(scene("basic/spheres.pov"), {"2", "--mpiexec", "./refusing-mpiexec"}), 2);
+    unchanged("a grid that was there before, of another scene");
+
+    program("broken-mpiexec", "exit 7\n");
+    EXPECT_EQ(seams(scene("basic/spheres.pov"), {"2", "--mpiexec", "./broken-mpiexec"}), 3);
+    EXPECT_EQ(read("out/seams.json")["scene"], "spheres") << "a case that fails is a result";
+    EXPECT_NE(bytes_of(files[1]), earlier[1]);
+    EXPECT_FALSE(fs::exists(path(files[2]))) << "of the earlier scene";
+}
+
+// Or they would be taken for those of the scene that the earlier noise.json names.
+TEST_F(RenderPrograms, EarlierSerialRendersOutliveARunThatFails) {
+    const auto noise = [&](const std::string& file, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"noise", file,  "+W64",      "+H48", "-A",
+                                           "--out", "out", "--renders", "3"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    };
+    ASSERT_EQ(noise(scene("effects/none.pov"), {}), 0) << output_;
+    const std::string json_before = bytes_of("out/noise.json"),
+                      image_before = bytes_of("out/serial-default.png");
+    // Fails at the first render in another order.
+    program("failing-povray", "case \"$*\" in *RP2*-D*) exit 1;; esac\nexec povray \"$@\"\n");
+    EXPECT_EQ(noise(scene("basic/spheres.pov"), {"--povray", "./failing-povray"}), 3) << output_;
+    EXPECT_EQ(bytes_of("out/noise.json"), json_before);
+    EXPECT_EQ(bytes_of("out/serial-default.png"), image_before);
+    EXPECT_EQ(std::distance(fs::directory_iterator(path("out")), {}), 2);
 }
 
 TEST_F(RenderPrograms, NoiseOfANoisyScene) {

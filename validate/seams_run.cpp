@@ -1,9 +1,11 @@
 #include "seams_run.h"
 
 #include "interrupt.h"
-#include "json_output.h"
 #include "render_options.h"
+#include "result_file.h"
 #include "run_child.h"
+#include "serial_stage.h"
+#include "set_aside.h"
 
 #include <fmt/format.h>
 
@@ -18,21 +20,17 @@ namespace fs = std::filesystem;
 class SeamsRun {
   public:
     SeamsRun(const SeamsRequest& request, SeamsReport& report)
-        : request_(request), report_(report) {}
+        : request_(request),
+          report_(report),
+          file_(request.folder / "seams.json", has_cases),
+          stage_(request.folder) {}
 
     Exit run() {
-        save();
-        try {
+        measure_into(file_, report_, [&] {
             prepare();
             for (SeamsCase& one : planned()) run_case(one);
             add_ssim();
-        } catch (const Failure& failure) {
-            report_.failure = failure.what();
-            save();
-            throw;
-        }
-        report_.complete = true;
-        save();
+        });
         if (report_.cases.empty() && !report_.skipped.empty())
             throw Failure(Exit::usage,
                           fmt::format("nothing was judged: {}: {}", report_.skipped.front().name,
@@ -41,28 +39,42 @@ class SeamsRun {
     }
 
   private:
-    void save() const { write_json((request_.folder / "seams.json").string(), to_json(report_)); }
+    static bool has_cases(const nlohmann::json& earlier) { return !earlier.at("cases").empty(); }
+
+    void save() const { file_.write(to_json(report_)); }
 
     void prepare() {
         const auto halo = [](const SeamKind& kind) { return kind.seams == Seams::halo; };
         const SerialRequest wanted{request_.arguments, request_.renders, request_.povray,
                                    std::any_of(request_.seams.begin(), request_.seams.end(), halo)};
         if (request_.serial.empty()) {
-            report_.serial = render_serial_set(wanted, request_.folder);
+            report_.serial = render_serial_set(wanted, stage_.path());
         } else {
             report_.serial = read_serial_set(wanted, request_.serial);
-            for (auto& [name, render] : report_.serial->references) bring_here(render.image);
         }
         const SerialSet& serial = *report_.serial;
         report_.versions["povray"] = serial.scene.povray_version;
         report_.image = ImageSource(serial.reference().image).format();
+        if (!file_.keeps_earlier()) settle();
+        save();
+    }
+
+    // The folder is this measurement's from now on; until then an earlier one's stays whole.
+    void settle() {
+        if (settled_) return;
+        settled_ = true;
+        file_.replace_earlier();
+        if (request_.serial.empty())
+            stage_.keep(*report_.serial);
+        else
+            for (auto& [name, render] : report_.serial->references) bring_here(render.image);
+        const SerialSet& serial = *report_.serial;
         if (serial.noise.why_not.empty()) {
             std::vector<fs::path> renders{serial.reference().image};
             for (const NoiseRender& render : serial.noise.renders)
                 renders.push_back(render.render.image);
             judge_.emplace(renders);
         }
-        save();
     }
 
     // The report shows only what lies in its own folder.
@@ -126,8 +138,9 @@ class SeamsRun {
     bool render(SeamsCase& one) {
         const fs::path folder = make_folder(request_.folder / one.name);
         one.run_file = folder / "run.json";
+        SetAside earlier(one.run_file);
+        if (settled_) earlier.drop();
         std::error_code ignored;
-        fs::remove(one.run_file, ignored);
         const SeamKind kind{one.seams, one.halo};
         ChildRequest child;
         child.argv = {request_.mpiexec,
@@ -163,6 +176,8 @@ class SeamsRun {
             save();
             return false;
         }
+        settle();
+        earlier.drop();
         if (result.exit_code != 0)
             throw Failure(
                 result.exit_code == static_cast<int>(Exit::file) ? Exit::file : Exit::scene,
@@ -229,6 +244,9 @@ class SeamsRun {
 
     const SeamsRequest& request_;
     SeamsReport& report_;
+    ResultFile file_;
+    const SerialStage stage_;
+    bool settled_ = false;
     std::optional<SeamJudge> judge_;
     Exit outcome_ = Exit::ok;
 };

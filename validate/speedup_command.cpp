@@ -96,7 +96,8 @@ Command add_speedup_command(CLI::App& program) {
         ->type_name("N")
         ->capture_default_str();
     app->add_option("--out", options->out,
-                    "where speedup.json and mpipov's records go; what lies there is replaced")
+                    "where speedup.json and mpipov's records go; an earlier result there stays "
+                    "until the scene has been rendered once")
         ->type_name("DIR")
         ->capture_default_str();
     app->add_option("--povray", options->povray, "which POV-Ray to run")->capture_default_str();

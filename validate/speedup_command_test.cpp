@@ -156,6 +156,18 @@ TEST_F(SpeedupProgram, WhatPovrayCannotRenderStopsAll) {
     EXPECT_THAT(read()["failure"].get<std::string>(), HasSubstr("./none"));
 }
 
+TEST_F(SpeedupProgram, AnEarlierResultOutlivesARunThatMeasuredNothing) {
+    ASSERT_EQ(measure({"--ranks", "1", "--repeat", "1", "--schedule", "static"}), 0) << output_;
+    const json earlier = read();
+    EXPECT_EQ(run({"none.pov", "+W32", "+H24", "--out", "out"}), 3);
+    EXPECT_EQ(measure({"+Wide"}), 2) << output_;
+    EXPECT_EQ(measure({"--povray", "./none"}), 3);
+    EXPECT_EQ(read(), earlier);
+    EXPECT_TRUE(fs::exists(path("out/mpipov-static-1.run.json")));
+    EXPECT_EQ(measure({"--ranks", "2", "--repeat", "1", "--schedule", "static"}), 0) << output_;
+    EXPECT_TRUE(row(read(), "mpipov-static-1").is_null());
+}
+
 TEST_F(SpeedupProgram, AnInterruptedRunKeepsWhatItHas) {
     program("slow-mpiexec", "touch started; sleep 60\n");
     ChildRequest request;

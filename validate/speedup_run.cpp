@@ -2,10 +2,10 @@
 
 #include "compare.h"
 #include "interrupt.h"
-#include "json_output.h"
 #include "povray_command.h"
 #include "povray_text.h"
 #include "probe.h"
+#include "result_file.h"
 #include "run_child.h"
 #include "run_record.h"
 #include "scratch.h"
@@ -68,27 +68,26 @@ std::string failure_of(const SpeedupVariant& variant, const SpeedupTools& tools,
 class SpeedupRun {
   public:
     SpeedupRun(const SpeedupRequest& request, SpeedupReport& report)
-        : request_(request), report_(report) {}
+        : request_(request), report_(report), file_(request.folder / "speedup.json", has_times) {}
 
     Exit run() {
-        save();
-        try {
+        measure_into(file_, report_, [&] {
             ask_scene();
             for (const SpeedupVariant& variant : speedup_variants(request_.choice))
                 report_.rows.push_back({variant, {}, {}, {}, {}, {}, {}});
             for (int i = 0; i < request_.repeat; ++i) repetition(i);
-        } catch (const Failure& failure) {
-            report_.failure = failure.what();
-            save();
-            throw;
-        }
-        report_.complete = true;
-        save();
+        });
         return outcome();
     }
 
   private:
-    void save() const { write_json((request_.folder / "speedup.json").string(), to_json(report_)); }
+    static bool has_times(const nlohmann::json& earlier) {
+        const auto& rows = earlier.at("rows");
+        return std::any_of(rows.begin(), rows.end(),
+                           [](const auto& row) { return !row.at("times").empty(); });
+    }
+
+    void save() const { file_.write(to_json(report_)); }
 
     void ask_scene() {
         report_.versions["povray"] = povray_version(request_.tools.povray);
@@ -113,7 +112,8 @@ class SpeedupRun {
             throw_if_interrupted();
             report_.repetitions.back().order.push_back(row.variant.name());
             try {
-                measure(row);
+                measure(row);  // the serial render comes first
+                file_.replace_earlier();
                 fmt::print(stderr, "repetition {} of {}: {} {:.2f} s\n", index + 1, request_.repeat,
                            row.variant.name(), *row.times.back());
             } catch (const Failure& failure) {
@@ -212,6 +212,7 @@ class SpeedupRun {
 
     const SpeedupRequest& request_;
     SpeedupReport& report_;
+    ResultFile file_;
     const ScratchFolder scratch_{"speedup"};
     SpeedupScene scene_;
     fs::path serial_image_;
