@@ -9,6 +9,7 @@
 #include <CLI/Validators.hpp>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -43,7 +44,15 @@ std::optional<Ssim> ssim_of(const Comparison& comparison, const CompareOptions& 
     }
 }
 
+void require_other_files(const CompareOptions& options) {
+    const std::vector<std::filesystem::path> read{options.a, options.b, options.run};
+    if (options.json != "-") require_other_file("--json", options.json, read);
+    require_other_file("--map", options.map, read);
+    require_other_file("--map", options.map, {options.json});
+}
+
 Exit run_compare(const CompareOptions& options) {
+    require_other_files(options);
     CompareRequest request{options.a, options.b, {}, options.peak};
     if (!options.run.empty()) request.run = read_run(options.run);
     Comparison comparison = compare_images(request);
@@ -76,7 +85,14 @@ Command add_compare_command(CLI::App& program) {
     app->add_option("--peak", options->peak,
                     "peak of PSNR and range of SSIM, where full scale is 1; for float images that "
                     "are not in [0, 1]")
-        ->check(CLI::PositiveNumber)
+        ->check(CLI::Validator(
+            [](const std::string& text) {
+                double value = 0;
+                const bool good =
+                    CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+                return good ? "" : fmt::format("'{}' is no finite number above 0", text);
+            },
+            "NUMBER > 0"))
         ->capture_default_str();
     CLI::Option* ssim =
         app->add_flag("--ssim", options->ssim, "compute SSIM even of identical images");

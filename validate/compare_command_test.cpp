@@ -3,8 +3,11 @@
 #include "program_test.h"
 #include "test_image.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -140,8 +143,49 @@ TEST_F(CompareProgram, UsageErrors) {
     EXPECT_EQ(run({"a.png", "b.png", "--nonsense"}), 2);
     EXPECT_EQ(run({"a.png", "b.png", "--ssim", "--no-ssim"}), 2);
     EXPECT_EQ(run({"a.png", "b.png", "--no-ssim", "--map", "map.png"}), 2);
-    EXPECT_EQ(run({"a.png", "b.png", "--peak", "0"}), 2);
+    for (const char* peak : {"0", "-1", "nan", "inf", "-inf", "1e999", "one"}) {
+        EXPECT_EQ(run({"a.png", "b.png", "--no-ssim", "--peak", peak}), 2) << peak;
+        EXPECT_THAT(output_, HasSubstr("--peak"));
+    }
+    EXPECT_EQ(run({"a.png", "b.png", "--no-ssim", "--peak", "2e3"}), 1);
     EXPECT_EQ(run({"--help"}), 0);
+}
+
+TEST_F(CompareProgram, NothingThatIsReadIsOverwritten) {
+    write_run_record(path("run.json"), run_of(128, 32, Shape::columns, 4));
+    fs::create_symlink("a.png", path("link.png"));
+    fs::create_hard_link(path("b.png"), path("other.png"));
+    const std::vector<std::vector<std::string>> refused{{"--json", "a.png"},
+                                                        {"--json", "./b.png"},
+                                                        {"--json", "link.png"},
+                                                        {"--json", "other.png"},
+                                                        {"--json", path("b.png").string()},
+                                                        {"--json", "run.json"},
+                                                        {"--map", "a.png"},
+                                                        {"--map", "b.png"},
+                                                        {"--map", "link.png"},
+                                                        {"--map", "x.exr", "--json", "./x.exr"}};
+    for (const auto& more : refused) {
+        std::vector<std::string> arguments{"a.png", "b.png", "--run", "run.json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(run(arguments), 2) << more[0] << ' ' << more[1];
+        EXPECT_THAT(output_, HasSubstr("mpipov-validate: " + more[0] + " would overwrite"));
+    }
+    EXPECT_EQ(run({"a.png", "b.png", "--no-ssim"}), 1) << "they are as they were";
+    EXPECT_TRUE(fs::is_symlink(path("link.png")));
+}
+
+TEST_F(CompareProgram, ADeviceIsWrittenToAndNotReplaced) {
+    ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+    const int pipe = ::open(path("pipe").c_str(), O_RDWR | O_NONBLOCK);
+    ASSERT_GE(pipe, 0);
+    EXPECT_EQ(run({"a.png", "b.png", "--no-ssim", "--json", "pipe"}), 1);
+    std::string found(1 << 16, ' ');
+    found.resize(
+        static_cast<std::size_t>(std::max(ssize_t{0}, ::read(pipe, found.data(), found.size()))));
+    ::close(pipe);
+    EXPECT_TRUE(fs::is_fifo(path("pipe")));
+    EXPECT_EQ(json::parse(found)["differing"], 1);
 }
 
 TEST_F(CompareProgram, FileErrors) {
@@ -151,6 +195,8 @@ TEST_F(CompareProgram, FileErrors) {
     EXPECT_THAT(output_, HasSubstr("none.json"));
     EXPECT_EQ(run({"a.png", "b.png", "--no-ssim", "--json", "no/out.json"}), 4);
     EXPECT_THAT(output_, HasSubstr("no/out.json"));
+    EXPECT_EQ(run({"a.png", "b.png", "--no-ssim", "--json", "/dev/full"}), 4);
+    EXPECT_THAT(output_, HasSubstr("cannot write '/dev/full'"));
 }
 
 }  // namespace

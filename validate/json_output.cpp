@@ -1,14 +1,16 @@
 #include "json_output.h"
 
 #include "failure.h"
+#include "part_file.h"
 
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 
 namespace mpipov {
+
+namespace fs = std::filesystem;
 
 void write_json(const std::string& target, const nlohmann::json& json) {
     const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -19,15 +21,42 @@ void write_json(const std::string& target, const nlohmann::json& json) {
         if (std::puts(text.c_str()) < 0 || std::fflush(stdout) != 0) fail("standard output");
         return;
     }
-    const std::string part = target + ".part";
-    {
-        std::ofstream out(part);
+    const auto write_to = [&](const fs::path& file) {
+        std::ofstream out(file);
         out << text << '\n';
         if (!out.flush()) fail("is there such a folder, and room in it?");
+    };
+    std::error_code none;
+    const fs::file_status status = fs::status(target, none);
+    if (fs::exists(status) && !fs::is_regular_file(status)) {  // /dev/null must not be replaced
+        write_to(target);
+        return;
     }
-    std::error_code error;
-    std::filesystem::rename(part, target, error);
-    if (error) fail(error.message());
+    try {
+        PartFile part(target);
+        write_to(part.path());
+        part.take_place();
+    } catch (const Failure&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw Failure(Exit::file, error.what());
+    }
+}
+
+bool same_file(const fs::path& a, const fs::path& b) {
+    if (a.empty() || b.empty()) return false;
+    std::error_code none;
+    if (fs::equivalent(a, b, none)) return true;
+    return fs::weakly_canonical(fs::absolute(a), none) ==
+           fs::weakly_canonical(fs::absolute(b), none);
+}
+
+void require_other_file(const std::string& option, const fs::path& target,
+                        const std::vector<fs::path>& read) {
+    for (const fs::path& file : read)
+        if (same_file(target, file))
+            throw Failure(Exit::usage, fmt::format("{} would overwrite '{}': name another file",
+                                                   option, file.string()));
 }
 
 }  // namespace mpipov

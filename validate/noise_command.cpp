@@ -29,6 +29,8 @@ Exit run_noise(const CLI::App& app, const NoiseOptions& options) {
     SerialRequest request{povray_arguments(app), options.renders, options.povray, false};
     // Kept, it is for `seams --serial`, which may ask for halo.
     request.one_block = !options.out.empty();
+    require_other_file("--json", options.json == "-" ? "" : options.json,
+                       {request.arguments.begin(), request.arguments.end()});
     const ScratchFolder scratch("noise");
     const fs::path folder = options.out.empty() ? scratch.path() : make_folder(options.out);
     const SerialStage stage(folder);

@@ -39,6 +39,8 @@ Exit run_report(const ReportOptions& options) {
                                   "make one with mpipov-validate seams",
                                   options.folder));
     const fs::path page = options.output.empty() ? root / "report.html" : fs::path(options.output);
+    for (const auto& entry : input.at("entries"))
+        require_other_file("--output", page, {root / entry.at("file").get<std::string>()});
     const ScratchFolder scratch("report");
     const std::string input_file = (scratch.path() / "input.json").string();
     write_json(input_file, input);

@@ -139,6 +139,13 @@ TEST_F(ReportCommand, UsageErrors) {
     EXPECT_THAT(output_, HasSubstr("mpipov-validate: "));
     EXPECT_EQ(run({".", "--nonsense"}), 2);
     EXPECT_EQ(run({"--help"}), 0);
+    write("seams.json", good_seams());
+    fs::create_hard_link(path("seams.json"), path("other.html"));
+    for (const char* output : {"seams.json", "other.html"}) {
+        EXPECT_EQ(run({".", "--output", output}), 2) << output;
+        EXPECT_THAT(output_, HasSubstr("--output would overwrite"));
+    }
+    EXPECT_EQ(json::parse(read("seams.json")), good_seams());
 }
 
 TEST_F(ReportCommand, FileErrors) {

@@ -235,6 +235,9 @@ TEST_F(RenderPrograms, UsageErrors) {
         << "of no grid that can be";
     EXPECT_THAT(output_, HasSubstr("nothing was judged"));
     EXPECT_EQ(run({"noise", "scene.pov", "--renders", "1"}), 2);
+    std::ofstream(path("scene.pov")) << "// empty";
+    EXPECT_EQ(run({"noise", "scene.pov", "--json", "./scene.pov"}), 2);
+    EXPECT_THAT(output_, HasSubstr("--json would overwrite 'scene.pov'"));
     EXPECT_EQ(run({"seams", "--help"}), 0);
 }
 
