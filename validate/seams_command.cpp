@@ -112,8 +112,8 @@ Command add_seams_command(CLI::App& program) {
         ->check(CLI::Range(fewest_noise_renders, 1000))
         ->capture_default_str();
     app->add_option("--serial", options->serial,
-                    "take the serial renders from what noise --out left there, of the same scene, "
-                    "arguments and POV-Ray, instead of making them")
+                    "take the serial renders from what noise --out left there, of the same scene "
+                    "with all its files, arguments and POV-Ray, instead of making them")
         ->type_name("DIR");
     app->add_option("--povray", options->povray, "which POV-Ray to run")->capture_default_str();
     app->add_option("--mpiexec", options->mpiexec, "which mpiexec to run")->capture_default_str();

@@ -183,7 +183,10 @@ TEST_F(RenderPrograms, NoiseOfANoisyScene) {
 
 TEST_F(RenderPrograms, SerialRendersServeAgain) {
     fs::copy_file(scene("effects/crand.pov"), path("crand.pov"));
-    const std::vector<std::string> scene_and_size{"crand.pov", "+W96", "+H64", "+A0.3", "+AM1"};
+    std::ofstream(path("crand.pov"), std::ios::app) << "#include \"more.inc\"\n";
+    std::ofstream(path("more.inc")) << "sphere { 0, 0.1 }\n";
+    std::ofstream(path("size.ini")) << "Width=96\nHeight=64\n";
+    const std::vector<std::string> scene_and_size{"crand.pov", "size.ini", "+A0.3", "+AM1"};
     const auto call = [&](std::vector<std::string> arguments,
                           const std::vector<std::string>& more) {
         arguments.insert(arguments.begin() + 1, scene_and_size.begin(), scene_and_size.end());
@@ -212,9 +215,15 @@ TEST_F(RenderPrograms, SerialRendersServeAgain) {
     EXPECT_THAT(output_, HasSubstr("only 4 renders"));
     EXPECT_EQ(call(judge, {"4", "+A0.2"}), 2) << output_;
     EXPECT_THAT(output_, HasSubstr("other arguments"));
-    std::ofstream(path("crand.pov"), std::ios::app) << "// changed\n";
-    EXPECT_EQ(call(judge, {"4"}), 2) << output_;
-    EXPECT_THAT(output_, HasSubstr("has changed since"));
+    for (const auto& [file, more] :
+         {std::pair{"more.inc", "// changed\n"}, std::pair{"size.ini", "; changed\n"},
+          std::pair{"crand.pov", "// changed\n"}}) {
+        const std::string before = bytes_of(file);
+        std::ofstream(path(file), std::ios::app) << more;
+        EXPECT_EQ(call(judge, {"4"}), 2) << output_;
+        EXPECT_THAT(output_, HasSubstr(fmt::format("'{}' changed", file)));
+        std::ofstream(path(file)) << before;
+    }
     EXPECT_EQ(call({"seams", "--out", "out", "--serial", "none"}, {}), 4) << output_;
     std::ofstream(path("serial/noise.json")) << "{}";
     EXPECT_EQ(call(judge, {"4"}), 4) << output_;

@@ -1,7 +1,7 @@
 #include "serial_set.h"
 
 #include "failure.h"
-#include "journal.h"
+#include "job_identity.h"
 #include "povray_command.h"
 #include "probe.h"
 #include "scratch.h"
@@ -20,15 +20,16 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-SceneAsked ask_scene(const SerialRequest& request, const fs::path& scratch) {
+SceneAsked ask_scene(const SerialRequest& request) {
+    const ScratchFolder scratch("probe");
     SceneAsked scene;
     scene.povray_version = povray_version(request.povray);
     const Probe probe =
-        run_probe({request.povray, quote_arguments(request.arguments), scratch / "probe", {}});
+        run_probe({request.povray, quote_arguments(request.arguments), scratch.path(), {}});
     const ImageOptions& image = probe.result.image;
     scene.file = image.input_file;
     scene.name = fs::path(image.input_file).stem().string();
-    scene.sha1 = sha1_of_file(image.input_file);
+    scene.identity = job_identity(probe, request.arguments, scene.povray_version);
     scene.order_dependent = probe.result.order_dependent;
     scene.longest_side = std::max(image.width, image.height);
     return scene;
@@ -67,16 +68,13 @@ json parse_file(const fs::path& file) {
 }
 
 // What is not as `request` asks for; empty where all is.
-std::string mismatch(const json& j, const SerialRequest& request) {
+std::string mismatch(const json& j, const SerialRequest& request, const SceneAsked& scene) {
     const auto arguments = j.at("arguments").get<std::vector<std::string>>();
     if (arguments != request.arguments)
         return fmt::format("rendered with other arguments: {}", fmt::join(arguments, " "));
-    const auto file = j.at("file").get<std::string>();
-    if (sha1_of_file(file) != j.at("sha1").get<std::string>())
-        return fmt::format("of another '{}': the file has changed since", file);
-    const auto version = j.at("versions").at("povray").get<std::string>();
-    if (const std::string here = povray_version(request.povray); here != version)
-        return fmt::format("made by POV-Ray {}, this is {}", version, here);
+    const json& identity = j.at("identity");
+    if (const std::string what = what_changed(identity, scene.identity); !what.empty())
+        return fmt::format("of another state of the scene: {}", what);
     if (const int had = j.at("wanted").get<int>(); had < request.renders)
         return fmt::format("only {} renders to tell noise by, not {}", had, request.renders);
     if (request.one_block && j.at("method_1").get<bool>() &&
@@ -96,7 +94,7 @@ bool is_exact(const NoiseReport& noise) {
 SerialSet render_serial_set(const SerialRequest& request, const fs::path& folder) {
     const ScratchFolder scratch("serial");
     SerialSet set;
-    set.scene = ask_scene(request, scratch.path());
+    set.scene = ask_scene(request);
     const SerialRenderer renderer(request.povray, request.arguments, scratch.path());
     const auto add_reference = [&](const std::string& name, const std::vector<std::string>& more) {
         fmt::print(stderr, "rendering the serial reference: {}\n", name);
@@ -126,18 +124,13 @@ SerialSet read_serial_set(const SerialRequest& request, const fs::path& folder) 
     const fs::path file = folder / "noise.json";
     try {
         const json j = parse_file(file);
-        if (const std::string wrong = mismatch(j, request); !wrong.empty())
+        SerialSet set;
+        set.scene = ask_scene(request);
+        if (const std::string wrong = mismatch(j, request, set.scene); !wrong.empty())
             throw Failure(Exit::usage,
                           fmt::format("the serial renders in '{}' are {}: render them again with "
                                       "mpipov-validate noise --out",
                                       folder.string(), wrong));
-        SerialSet set;
-        set.scene.povray_version = j.at("versions").at("povray").get<std::string>();
-        set.scene.name = j.at("scene").get<std::string>();
-        set.scene.file = j.at("file").get<std::string>();
-        set.scene.sha1 = j.at("sha1").get<std::string>();
-        set.scene.order_dependent = j.at("order_dependent").get<bool>();
-        set.scene.longest_side = j.at("longest_side").get<int>();
         for (const auto& [name, render] : j.at("references").items()) {
             SerialRender& reference = set.references[name] = read_render(render, folder);
             reference.report.antialiasing.on = j.at("method_1").get<bool>();

@@ -24,7 +24,9 @@ inline constexpr int fewest_noise_renders = 3, default_noise_renders = 12;
 struct SceneAsked {
     std::string povray_version;
     std::string name, file;  // file: as the user gave it
-    std::string sha1;        // of the file
+    // What was rendered: POV-Ray, settings, and the SHA-1 of every file that the scene is made of
+    // (job_identity.h, which says what cannot be seen).
+    nlohmann::json identity;
     bool order_dependent = false;
     int longest_side = 0;  // pixels
 };
@@ -74,10 +76,10 @@ nlohmann::json to_json(const NoiseReport& noise, const std::filesystem::path& fo
 nlohmann::json to_json(const SerialSet& set, const SerialRequest& request,
                        const std::filesystem::path& folder);
 
-// What an earlier render_serial_set left in `folder`; that included files are the same is not
-// checked. Throws Failure(Exit::usage) where that is of
-// another scene file, other arguments, another POV-Ray or of fewer renders than `request` asks for;
-// Failure(Exit::file) where it cannot be read.
+// What an earlier render_serial_set left in `folder`. Asks POV-Ray about the scene again, and
+// throws Failure(Exit::usage) where it is another now (any file of it, the settings, POV-Ray
+// itself), where the arguments are others, or where there are fewer renders than `request` asks
+// for; Failure(Exit::file) where it cannot be read, and as run_probe does.
 SerialSet read_serial_set(const SerialRequest& request, const std::filesystem::path& folder);
 
 // Compares the noise renders with the reference, with the seams of `run` where there is one, and

@@ -101,7 +101,7 @@ json to_json(const SerialSet& set, const SerialRequest& request, const fs::path&
             {"version", 1},
             {"scene", scene.name},
             {"file", scene.file},
-            {"sha1", scene.sha1},
+            {"identity", scene.identity},
             {"arguments", request.arguments},
             {"image", typed_image_json(ImageSource(set.reference().image).format())},
             {"versions", {{"mpipov", MPIPOV_VERSION}, {"povray", scene.povray_version}}},
