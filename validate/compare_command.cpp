@@ -3,6 +3,7 @@
 #include "compare.h"
 #include "compare_report.h"
 #include "json_output.h"
+#include "run_image.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -56,6 +57,7 @@ Exit run_compare(const CompareOptions& options) {
     CompareRequest request{options.a, options.b, {}, options.peak};
     if (!options.run.empty()) request.run = read_run(options.run);
     Comparison comparison = compare_images(request);
+    if (request.run) require_record_of(*request.run, options.run, options.a, options.b);
     comparison.ssim = ssim_of(comparison, options);
 
     if (options.json != "-") fmt::print("{}", to_table(comparison));
@@ -78,7 +80,8 @@ Command add_compare_command(CLI::App& program) {
     app->add_option("B", options->b, "the image to judge")->required();
     app->add_option("--run", options->run,
                     "the record of the run that made B: adds the errors by distance from the "
-                    "nearest seam, by section and by seam")
+                    "nearest seam, by section and by seam. Its pixel_sha1 has to be that of A or B "
+                    "(of a JPEG it cannot be checked)")
         ->type_name("FILE");
     app->add_option("--json", options->json, "write the results as JSON; - is standard output")
         ->type_name("FILE");

@@ -1,6 +1,7 @@
 // The program as a whole: exit codes, streams, files.
 #include "image_source.h"
 #include "program_test.h"
+#include "run_image.h"
 #include "test_image.h"
 
 #include <fcntl.h>
@@ -30,6 +31,13 @@ class CompareProgram : public ProgramTest {
         TestImage b = a_;
         b.at(64, 7, 1) += 5;
         write_image(path("b.png"), b, TypeDesc::UINT8);
+    }
+
+    // Of a run in 4 columns that made that image.
+    RunRecord record_of(const char* image) const {
+        RunRecord record = run_of(128, 32, Shape::columns, 4);
+        record.pixel_sha1 = pixel_sha1(path(image));
+        return record;
     }
 
     json read(const char* name) const {
@@ -76,7 +84,7 @@ TEST_F(CompareProgram, JsonOnStandardOutputStandsAlone) {
 }
 
 TEST_F(CompareProgram, WithTheRecordOfARun) {
-    write_run_record(path("run.json"), run_of(128, 32, Shape::columns, 4));
+    write_run_record(path("run.json"), record_of("b.png"));
     EXPECT_EQ(run({"a.png", "b.png", "--no-ssim", "--run", "run.json", "--json", "out.json"}), 1);
     EXPECT_THAT(output_, HasSubstr("1 | 2 (x = 64, y 0..31): 1 touching"));
     EXPECT_THAT(output_, HasSubstr("section 2"));
@@ -87,6 +95,36 @@ TEST_F(CompareProgram, WithTheRecordOfARun) {
     EXPECT_EQ(found["by_distance"].size(), 32U);
     EXPECT_EQ(found["seams"][1]["longest_run"]["length"], 1);
     EXPECT_TRUE(found["seams"][0]["longest_run"].is_null());
+}
+
+TEST_F(CompareProgram, TheRecordHasToBeOfOneOfTheImages) {
+    TestImage c = a_;
+    c.at(0, 0, 0) += 1;
+    write_image(path("c.png"), c, TypeDesc::UINT8);
+    write_run_record(path("run.json"), record_of("c.png"));
+    EXPECT_EQ(run({"a.png", "b.png", "--no-ssim", "--run", "run.json"}), 4);
+    EXPECT_THAT(output_, HasSubstr("'run.json' is of another image"));
+    EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1);
+    // Of A, where B is what became of it.
+    write_run_record(path("run.json"), record_of("a.png"));
+    EXPECT_EQ(run({"a.png", "b.png", "--no-ssim", "--run", "run.json"}), 1);
+    // Depth and type count too: the same values, stored otherwise.
+    write_image(path("a.exr"), a_, TypeDesc::HALF);
+    write_image(path("b.exr"), c, TypeDesc::HALF);
+    EXPECT_EQ(run({"a.exr", "b.exr", "--no-ssim", "--run", "run.json"}), 4);
+    write_run_record(path("run.json"), record_of("b.exr"));
+    EXPECT_EQ(run({"a.exr", "b.exr", "--no-ssim", "--run", "run.json"}), 1) << output_;
+}
+
+TEST_F(CompareProgram, ARecordOfAJpegCannotBeChecked) {
+    write_image(path("a.jpg"), a_, TypeDesc::UINT8);
+    write_image(path("b.jpg"), textured(128, 32), TypeDesc::UINT8);
+    RunRecord record = run_of(128, 32, Shape::columns, 4);
+    record.plan.image.type = "jpeg";
+    record.pixel_sha1 = "of the pixels before they were encoded";
+    write_run_record(path("run.json"), record);
+    EXPECT_EQ(run({"a.jpg", "b.jpg", "--no-ssim", "--run", "run.json"}), 0) << output_;
+    EXPECT_EQ(run({"a.png", "b.png", "--no-ssim", "--run", "run.json"}), 4) << output_;
 }
 
 TEST_F(CompareProgram, TheMapIsDarkWhereTheImagesDiffer) {
@@ -152,7 +190,7 @@ TEST_F(CompareProgram, UsageErrors) {
 }
 
 TEST_F(CompareProgram, NothingThatIsReadIsOverwritten) {
-    write_run_record(path("run.json"), run_of(128, 32, Shape::columns, 4));
+    write_run_record(path("run.json"), record_of("b.png"));
     fs::create_symlink("a.png", path("link.png"));
     fs::create_hard_link(path("b.png"), path("other.png"));
     const std::vector<std::vector<std::string>> refused{{"--json", "a.png"},
