@@ -5,6 +5,7 @@
 #include "test_image.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
@@ -224,6 +225,23 @@ TEST_F(CompareProgram, ADeviceIsWrittenToAndNotReplaced) {
     ::close(pipe);
     EXPECT_TRUE(fs::is_fifo(path("pipe")));
     EXPECT_EQ(json::parse(found)["differing"], 1);
+}
+
+TEST_F(CompareProgram, ADamagedImageIsOneLine) {
+    for (const char* type : {"png", "bmp", "tga", "ppm", "exr"}) {
+        const std::string whole = fmt::format("whole.{}", type), cut = fmt::format("cut.{}", type);
+        const bool exr = std::string_view(type) == "exr";
+        write_image(path(whole), a_, exr ? TypeDesc::HALF : TypeDesc::UINT8);
+        for (const int parts : {2, 100}) {  // in the pixels, in the header
+            fs::copy_file(path(whole), path(cut), fs::copy_options::overwrite_existing);
+            fs::resize_file(path(cut), fs::file_size(path(whole)) / parts);
+            EXPECT_EQ(run({cut, whole, "--no-ssim"}), 4) << type;
+            EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+            EXPECT_THAT(output_,
+                        HasSubstr(fmt::format("mpipov-validate: cannot read '{}': ", cut)));
+            EXPECT_THAT(output_, testing::Not(HasSubstr("unknown error")));
+        }
+    }
 }
 
 TEST_F(CompareProgram, FileErrors) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <string_view>
 
@@ -17,11 +18,31 @@ namespace {
 namespace fs = std::filesystem;
 using OIIO::TypeDesc;
 
-[[noreturn]] void cannot_read(const fs::path& file, std::string why) {
-    while (!why.empty() && why.back() == '\n') why.pop_back();
+// The first line says it: OpenImageIO adds one for each of its layers.
+[[noreturn]] void cannot_read(const fs::path& file, const std::string& why) {
+    const std::string line = why.substr(0, why.find('\n'));
     throw Failure(Exit::file, fmt::format("cannot read '{}': {}", file.string(),
-                                          why.empty() ? "unknown error" : why));
+                                          line.empty() ? "it is damaged, or ends early" : line));
 }
+
+// libpng prints its errors before OpenImageIO 2.4 tells them to us. This is the C library's stream
+// alone: what is written to the descriptor itself (sanitizers) still appears.
+class SilentStderr {
+  public:
+    SilentStderr() : silent_(std::fopen("/dev/null", "w")) {
+        if (silent_ != nullptr) stderr = silent_;
+    }
+    ~SilentStderr() {
+        stderr = loud_;
+        if (silent_ != nullptr) std::fclose(silent_);
+    }
+    SilentStderr(const SilentStderr&) = delete;
+    SilentStderr& operator=(const SilentStderr&) = delete;
+
+  private:
+    std::FILE* loud_ = stderr;
+    std::FILE* silent_;
+};
 
 TypeDesc raw_type_of(const ImageFormat& format) {
     if (format.depth == "uint8") return TypeDesc::UINT8;
@@ -92,6 +113,7 @@ ImageSource::ImageSource(const fs::path& file) : file_(file), input_(std::make_u
     const fs::file_status status = fs::status(file, error);
     if (!fs::exists(status)) cannot_read(file, "no such file");
     if (fs::is_directory(status)) cannot_read(file, "it is a folder");
+    const SilentStderr silent;
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
     input_->file = OIIO::ImageInput::open(file.string(), &config);
@@ -114,6 +136,7 @@ bool ImageSource::next_band(int rows, ImageBand& band) {
     band.raw.resize(samples * type.size());
     band.values.resize(samples);
     const int first = input_->file->spec().y + next_row_;
+    const SilentStderr silent;
     if (!input_->file->read_scanlines(0, 0, first, first + rows, 0, 0, format_.channel_count(),
                                       type, band.raw.data()))
         cannot_read(file_, input_->file->geterror());
