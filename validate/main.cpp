@@ -5,6 +5,7 @@
 #include "noise_command.h"
 #include "report_command.h"
 #include "seams_command.h"
+#include "simulate_command.h"
 #include "speedup_command.h"
 
 #include <CLI/CLI.hpp>
@@ -31,9 +32,9 @@ int run(int argc, char** argv) {
     program.set_version_flag("--version", MPIPOV_VERSION);
     program.require_subcommand(1);
     const std::vector<mpipov::Command> commands{
-        mpipov::add_compare_command(program), mpipov::add_noise_command(program),
-        mpipov::add_seams_command(program), mpipov::add_speedup_command(program),
-        mpipov::add_report_command(program)};
+        mpipov::add_compare_command(program),  mpipov::add_noise_command(program),
+        mpipov::add_seams_command(program),    mpipov::add_speedup_command(program),
+        mpipov::add_simulate_command(program), mpipov::add_report_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version

@@ -1,0 +1,147 @@
+// Where the terms' values come from: constants that were measured once, and a run's record.
+#include "image_file.h"
+#include "simulate_case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace mpipov {
+namespace {
+
+// Measured, docs/simulation.md says how; the first three are those of the planner's cost model.
+constexpr double start_seconds = 0.7, bare_cpu = 0.06, frame_pixel_cpu = 70e-9;
+constexpr double answer_seconds = 0.02;
+constexpr double service_seconds = 1.0 / 4000;
+constexpr double before_seconds = 1.0;
+constexpr double after_seconds = 0.35, after_pixel_seconds = 70e-9;
+
+const char* const no_scene = "no run of the scene says that it has any";
+const char* const one_host = "all ranks are on one host";
+
+double cpu_of(const PlanRecord& plan, const std::string& effect) {
+    const auto found = plan.effects.find(effect);
+    return found == plan.effects.end() || !found->second.on ? 0
+                                                            : found->second.cpu_seconds.value_or(0);
+}
+
+bool is_on(const PlanRecord& plan, const std::string& effect) {
+    const auto found = plan.effects.find(effect);
+    return found != plan.effects.end() && found->second.on;
+}
+
+std::string why(const PlanRecord& plan, const std::string& effect) {
+    const auto found = plan.effects.find(effect);
+    return found == plan.effects.end() ? "the record does not tell" : found->second.why;
+}
+
+// What of the launches' CPU is no tracing. The plan's own estimate, cut to what the cheapest
+// section took as a whole.
+double per_launch_cpu(const RunRecord& record) {
+    const PlanRecord& plan = record.plan;
+    const double planned =
+        (plan.predicted.cpu_seconds - cpu_of(plan, "render")) / std::max(1, plan.sections);
+    const auto cheapest = std::min_element(record.sections.begin(), record.sections.end(),
+                                           [](const SectionRecord& a, const SectionRecord& b) {
+                                               return a.cpu_seconds < b.cpu_seconds;
+                                           });
+    return std::clamp(planned, 0.0, cheapest->cpu_seconds);
+}
+
+// POV-Ray's threads compute side by side, so only one thread's wall time tells what was idle.
+void take_start_up(const RunRecord& record, std::vector<SimulateTerm>& terms) {
+    if (record.plan.threads != 1) return;
+    double idle = never;
+    for (const SectionRecord& section : record.sections)
+        idle = std::min(idle, section.wall_seconds - section.cpu_seconds);
+    if (idle > 0 && idle < 2 * start_seconds)
+        set_term(terms, term::start, idle, "the record: least wall - CPU of a launch");
+}
+
+void take_launch(const RunRecord& record, std::vector<SimulateTerm>& terms) {
+    const PlanRecord& plan = record.plan;
+    const double all = per_launch_cpu(record);
+    double photons = cpu_of(plan, "photons"), radiosity = cpu_of(plan, "radiosity");
+    double frame = frame_pixel_cpu * plan.image.width * plan.image.height, bare = bare_cpu;
+    const double known = photons + radiosity + frame + bare;
+    // What the cheapest section did not take is taken from all alike.
+    const double part = known > all ? all / known : 1;
+    const std::string source = part < 1 ? "the record, cut to its cheapest section" : "the record";
+    set_term(terms, term::bare, bare * part, part < 1 ? source : "docs/simulation.md");
+    set_term(terms, term::frame, frame * part,
+             part < 1 ? source : "70 ns for each pixel of the whole image, docs/simulation.md");
+    set_term(terms, term::parse, std::max(0.0, all - known), source + ": the rest of a launch");
+    for (const auto& [name, effect, cpu] :
+         {std::tuple{term::photons, "photons", photons}, {term::radiosity, "radiosity", radiosity}})
+        if (is_on(plan, effect))
+            set_term(terms, name, cpu * part, source);
+        else
+            switch_off(terms, name, why(plan, effect));
+}
+
+void take_ends(const RunRecord& record, std::vector<SimulateTerm>& terms) {
+    double first = never, last = 0;
+    for (const std::vector<SectionRecord>* all : {&record.sections, &record.repairs})
+        for (const SectionRecord& section : *all) {
+            first = std::min(first, section.start);
+            last = std::max(last, section.end);
+        }
+    set_term(terms, term::before, first, "the record: start of the first section");
+    set_term(terms, term::after, std::max(0.0, record.totals.wall_seconds - last),
+             "the record: after the last section");
+}
+
+}  // namespace
+
+std::vector<SimulateTerm> default_terms(int width, int height) {
+    const double pixels = static_cast<double>(width) * height;
+    const std::string doc = "docs/simulation.md";
+    return {
+        {term::start, start_seconds, "s, core idle, each launch", true, doc},
+        {term::end, 0, "s, core idle, each launch", false, "counted with the start-up"},
+        {term::bare, bare_cpu, "CPU s, each launch", true, doc},
+        {term::parse, 0, "CPU s, each launch", false, no_scene},
+        {term::photons, 0, "CPU s, each launch, by all threads", false, no_scene},
+        {term::radiosity, 0, "CPU s, each launch, by all threads", false, no_scene},
+        {term::frame, frame_pixel_cpu * pixels, "CPU s, each launch", true,
+         "70 ns for each pixel of the whole image, " + doc},
+        {term::answer, answer_seconds, "s, each section, lane idle", true, doc},
+        {term::service, service_seconds, "s of rank 0's loop, each section", true, doc},
+        {term::rank0, service_seconds, "CPU s of rank 0's core, each section", true, doc},
+        {term::latency, 50e-6, "s, each message", false, one_host},
+        {term::bandwidth, 125e6, "bytes/s into rank 0", false, one_host},
+        {term::before, before_seconds, "s before the first section", true, doc},
+        {term::after, after_seconds + after_pixel_seconds * pixels, "s after the last section",
+         true, doc},
+        {term::copies, 0, "by idle ranks, of the last sections", true, "Schedule::next_copy"},
+        {term::uneven, 0, "what tracing costs where", true, "the cost map"},
+    };
+}
+
+SimulateCase case_of_run(const RunRecord& record) {
+    if (!record.complete) throw std::invalid_argument("the run was not finished");
+    if (record.sections.empty()) throw std::invalid_argument("the record has no sections");
+    if (std::ranges::any_of(record.sections, &SectionRecord::resumed))
+        throw std::invalid_argument("the run went on from another: its times are not of one run");
+    const PlanRecord& plan = record.plan;
+    SimulateCase what;
+    what.costs = costs_of_run(record, per_launch_cpu(record));
+    what.costs_from = fmt::format("the CPU seconds of {} sections, {:.3g} each for the launch",
+                                  record.sections.size(), per_launch_cpu(record));
+    what.width = plan.image.width;
+    what.height = plan.image.height;
+    what.grid = {plan.region, plan.shape, plan.seams, 1, plan.halo, plan.block};
+    what.bytes_per_pixel =
+        static_cast<double>(plan.image.channels) *
+        static_cast<double>(bytes_per_value(depth_from_string(plan.image.depth)));
+    what.threads = plan.threads;
+    what.terms = default_terms(what.width, what.height);
+    take_start_up(record, what.terms);
+    take_launch(record, what.terms);
+    take_ends(record, what.terms);
+    if (is_on(plan, "order_dependent")) what.sections = plan.sections;
+    return what;
+}
+
+}  // namespace mpipov
