@@ -1,11 +1,13 @@
 // Asks POV-Ray about a scene: what the result is, and what it costs. Four short launches side by
 // side:
 //  1. the user's own command with a header file that stops the parser at once: POV-Ray has then
-//     printed size, region, output file and type as it resolved them, and touched nothing;
+//     printed its version, size, region, output file and type as it resolved them, and touched
+//     nothing;
 //  2. the whole picture, small: which effects are on, and their times; its file is the sample that
 //     the result's metadata is taken from;
 //  3. and 4. the same in two other block orders (+RP): whether the pixels depend on it. One is not
 //     enough: where only a few blocks use random numbers, many orders leave those as they were.
+// A scene that cannot be rendered small is asked again with the middle of its picture in full size.
 #pragma once
 
 #include "scene_plan.h"
@@ -26,6 +28,7 @@ struct ProbeRequest {
 };
 
 struct Probe {
+    std::string povray;  // its version
     ProbeResult result;
     FileStyle style;
     IniSettings settings;  // of the user's own command, with our +HI and +GI
@@ -36,7 +39,7 @@ struct Probe {
 
 // Throws Failure: usage where POV-Ray refuses an option or nothing can be made of the result (no
 // output file, standard output, an animation, an empty region, an unknown type), scene where it
-// refuses the scene; interrupted.
+// refuses the scene, there is no POV-Ray or it is no POV-Ray 3.7; interrupted.
 Probe run_probe(const ProbeRequest& request);
 
 // Of the `povray` on the PATH or the one named. Throws Failure(Exit::scene) where there is none or

@@ -107,6 +107,26 @@ TEST_F(ProbeTest, TouchesNothingOfTheUsers) {
     EXPECT_FALSE(fs::exists(file("mine.ini")));
 }
 
+TEST_F(ProbeTest, AsksAgainWhereASceneRefusesToBeSmall) {
+    const Probe result = probe(write(
+        "large.pov", fmt::format("{}\n#if (image_width < 60) #error \"too small\" #end", ball)));
+    EXPECT_TRUE(fs::exists(result.style.sample));
+    EXPECT_EQ(result.launches, 7);
+    EXPECT_EQ(result.result.probe_pixels, 32 * 32);
+    EXPECT_FALSE(result.result.seen_whole);
+    PlanRequest request;
+    request.slots = {1};
+    EXPECT_TRUE(make_plan(request, result.result).record.effects.at("order_dependent").on)
+        << "nobody has seen the rest";
+}
+
+TEST_F(ProbeTest, SaysWhatTheWholePictureFailsOn) {
+    expect_refused(
+        Exit::scene,
+        write("never.pov", fmt::format("{}\n#error concat(\"no \", str(image_width, 0, 0))", ball)),
+        {}, "no 64");
+}
+
 struct TypeCase {
     const char* name;
     std::vector<std::string> options;

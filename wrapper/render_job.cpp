@@ -158,12 +158,12 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     record.command = setup.command;
     record.versions = setup.versions;
 
-    const std::string povray = povray_version(options.povray);
-    record.versions["povray"] = povray;
     const std::vector<std::string> arguments = quote_arguments(options.povray_arguments);
     const ScratchFolder scratch("probe");
     const Probe probe =
         run_probe({options.povray, arguments, scratch.path() / "probe", options.timeout_seconds});
+    const std::string& povray = probe.povray;
+    record.versions["povray"] = povray;
     record.totals.cpu_seconds = probe.cpu_seconds;
     record.totals.launches = probe.launches;
     record.warnings = probe.warnings;

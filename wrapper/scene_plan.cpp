@@ -78,10 +78,12 @@ std::map<std::string, Effect> find_effects(const ProbeResult& probe) {
         {}};
     effects["reflection"] = counted(report, "Reflected Rays");
     effects["order_dependent"] = {
-        probe.order_dependent || report.radiosity,
+        probe.order_dependent || report.radiosity || !probe.seen_whole,
         report.radiosity ? "radiosity samples are taken in rendering order"
         : probe.order_dependent
             ? "small renders that differ only in their block order came out differently"
+        : !probe.seen_whole
+            ? "the scene cannot be rendered small, and its middle does not speak for all of it"
             : "small renders in three block orders are identical",
         {}};
     effects["render"] = {true, "trace time of the small render, by area",

@@ -1,0 +1,209 @@
+#include "probe_launches.h"
+
+#include "failure.h"
+#include "interrupt.h"
+#include "povray_text.h"
+#include "probe.h"
+#include "worker.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <utility>
+
+namespace mpipov {
+namespace {
+
+constexpr const char* stop_text = "mpipov has seen what it needs";
+// The small render's longest side: large enough to meet what is in the picture, small enough to
+// cost about half a percent of it.
+constexpr int smallest_side = 32, largest_side = 128, side_ratio = 16;
+// Small blocks, so that there are many whose order can differ.
+constexpr int probe_block = 8;
+// Measured with a jittered light whose soft shadow falls into one small corner, at 32x24 to 80x60:
+// +RP2 and +RP4 change its pixels at every size, +RP1 and +RP5 at most, +RP3 at none.
+constexpr std::array other_orders{2, 5};
+
+// The number in +W640 or Width=640.
+int side_from_arguments(const std::vector<std::string>& arguments, const std::string& letter,
+                        const std::string& key, int fallback) {
+    const std::regex shape(fmt::format(R"(^(?:[+-]{}|{}=)(\d+)$)", letter, key), std::regex::icase);
+    int side = fallback;
+    for (const std::string& argument : arguments) {
+        std::smatch match;
+        if (!std::regex_match(argument, match, shape)) continue;
+        const std::string digits = match[1];
+        int value = 0;
+        if (std::from_chars(digits.data(), digits.data() + digits.size(), value).ec ==
+                std::errc() &&
+            value > 0)
+            side = value;
+    }
+    return side;
+}
+
+// POV-Ray breaks lines anywhere, so the text is looked for without its line feeds.
+bool met_our_header(std::string_view text) {
+    std::string joined(text);
+    joined.erase(std::remove(joined.begin(), joined.end(), '\n'), joined.end());
+    return joined.find(stop_text) != std::string::npos;
+}
+
+}  // namespace
+
+ProbeView small_view(const std::vector<std::string>& arguments) {
+    const int width = side_from_arguments(arguments, "W", "Width", 800);
+    const int height = side_from_arguments(arguments, "H", "Height", 600);
+    const int longest = std::max(width, height);
+    const double scale =
+        static_cast<double>(std::clamp(longest / side_ratio, smallest_side, largest_side)) /
+        longest;
+    return {{std::max(2, static_cast<int>(width * scale)),
+             std::max(2, static_cast<int>(height * scale))},
+            {}};
+}
+
+ProbeView middle_view(const ImageSize& image) {
+    const auto middle = [](int size) {
+        const int part = std::min(size, std::clamp(size / side_ratio, smallest_side, largest_side));
+        return std::pair{(size - part) / 2, (size + part) / 2};
+    };
+    const auto [x0, x1] = middle(image.width);
+    const auto [y0, y1] = middle(image.height);
+    return {image, launch_area({x0, y0, x1, y1}, image)};
+}
+
+ProbeLaunches::ProbeLaunches(const ProbeRequest& request) : request_(request) {
+    std::filesystem::create_directories(request.scratch);
+    const std::filesystem::path header = request.scratch / "stop.inc";
+    std::ofstream(header) << "#error \"" << stop_text << "\"\n";
+    start("resolve", {fmt::format("+HI\"{}\"", header.string()),
+                      fmt::format("+GI\"{}\"", settings_file().string())});
+}
+
+void ProbeLaunches::render(const ProbeView& view) {
+    for (std::size_t i = 1; i < launches_.size(); ++i)
+        if (launches_[i].child.ended())
+            earlier_cpu_seconds_ += launches_[i].child.result().cpu_seconds;
+    launches_.erase(std::next(launches_.begin()), launches_.end());
+    std::vector<std::string> arguments = {fmt::format("+W{}", view.size.width),
+                                          fmt::format("+H{}", view.size.height),
+                                          fmt::format("+BS{}", probe_block), "Create_Ini="};
+    // Never as the user's own +SC, +EC, +SR, +ER would have it.
+    const auto area = view.area.empty() ? std::vector<std::string>{"+SC0", "+EC1", "+SR0", "+ER1"}
+                                        : area_arguments(view.area);
+    arguments.insert(arguments.end(), area.begin(), area.end());
+    const int number = ++views_;
+    start(fmt::format("render{}", number), arguments);
+    for (const int order : other_orders) {
+        std::vector<std::string> other_order = arguments;
+        other_order.push_back(fmt::format("+RP{}", order));
+        start(fmt::format("render{}-order{}", number, order), other_order);
+    }
+}
+
+void ProbeLaunches::wait() {
+    for (;;) {
+        throw_if_interrupted();
+        bool running = false;
+        for (Launch& launch : launches_) {
+            if (launch.child.poll()) continue;
+            running = true;
+            // The first one is of no more use once it has met our header.
+            if (&launch == launches_.data() && !launch.stopped &&
+                met_our_header(launch.child.output())) {
+                launch.child.kill_now();
+                launch.stopped = true;
+            }
+        }
+        if (!running) return;
+        const ChildProcess& resolve = launches_.front().child;
+        if (resolve.ended() && !resolved()) return;
+        if (resolve.ended() && launches_.size() > 1 && launches_[1].child.ended() && !rendered())
+            return;
+        sleep();
+    }
+}
+
+bool ProbeLaunches::resolved() const {
+    return met_our_header(resolve_output());
+}
+
+bool ProbeLaunches::started() const {
+    const ChildProcess& resolve = launches_.front().child;
+    return !resolve.ended() || resolve.result().exit_code != 127;
+}
+
+std::filesystem::path ProbeLaunches::settings_file() const {
+    return request_.scratch / "settings.ini";
+}
+
+bool ProbeLaunches::rendered() const {
+    const ChildProcess& child = launches_.at(1).child;
+    return child.ended() && child.result().exit_code == 0;
+}
+
+bool ProbeLaunches::timed_out() const {
+    const ChildProcess& child = launches_.at(1).child;
+    return child.ended() && child.result().timed_out;
+}
+
+std::filesystem::path ProbeLaunches::sample() const {
+    return image_of(launches_.at(1));
+}
+
+std::vector<std::filesystem::path> ProbeLaunches::in_other_orders() const {
+    std::vector<std::filesystem::path> images;
+    for (std::size_t i = 2; i < launches_.size(); ++i) images.push_back(image_of(launches_[i]));
+    return images;
+}
+
+double ProbeLaunches::cpu_seconds() const {
+    double sum = earlier_cpu_seconds_;
+    for (const Launch& launch : launches_)
+        if (launch.child.ended()) sum += launch.child.result().cpu_seconds;
+    return sum;
+}
+
+void ProbeLaunches::start(const std::string& name, const std::vector<std::string>& more) {
+    const std::filesystem::path folder = request_.scratch / name;
+    std::filesystem::create_directory(folder);
+    ChildRequest child;
+    child.argv.push_back(request_.povray);
+    for (const auto* list : {&request_.user_arguments, &more})
+        child.argv.insert(child.argv.end(), list->begin(), list->end());
+    for (const char* ours : {"-D", "-P", "-C", "+V", "+WT1", "All_Console=on"})
+        child.argv.emplace_back(ours);
+    // The first launch is asked for the user's own output file; it never comes to write one.
+    if (!launches_.empty())
+        child.argv.push_back(fmt::format("+O\"{}\"", (folder / "probe").string()));
+    child.timeout_seconds = request_.timeout_seconds;
+    launches_.push_back({folder, ChildProcess::start(child)});
+    ++started_;
+}
+
+std::filesystem::path ProbeLaunches::image_of(const Launch& launch) {
+    if (!launch.child.ended() || launch.child.result().exit_code != 0)
+        throw Failure(Exit::scene,
+                      launch.child.ended() && launch.child.result().timed_out
+                          ? "POV-Ray did not end a small render in time (--timeout)"
+                          : fmt::format("POV-Ray: {}", parse_error(launch.child.output())));
+    return find_image(launch.folder / "probe");
+}
+
+void ProbeLaunches::sleep() const {
+    std::vector<pollfd> fds;
+    for (const Launch& launch : launches_) {
+        fds.push_back({launch.child.output_fd(), POLLIN, 0});
+        fds.push_back({launch.child.exit_fd(), POLLIN, 0});
+    }
+    ::poll(fds.data(), fds.size(), 50);
+}
+
+}  // namespace mpipov

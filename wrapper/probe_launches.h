@@ -1,0 +1,77 @@
+// The launches of a probe, side by side: what they are and when they have said enough.
+#pragma once
+
+#include "child_process.h"
+#include "povray_command.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mpipov {
+
+// What the probe's own renders show of the image.
+struct ProbeView {
+    ImageSize size;  // +W +H of the render, pixels
+    // Only this part of it, empty: all.
+    Rect area;
+};
+
+// The whole picture, small. The size is the one that the arguments name last, or POV-Ray's own
+// default: POV-Ray itself is asked for the real one at the same time.
+ProbeView small_view(const std::vector<std::string>& user_arguments);
+
+// The middle of the picture in its own size, for a scene that refuses to be rendered small
+// (`#if (image_width < 320) #error ...`).
+ProbeView middle_view(const ImageSize& image);
+
+struct ProbeRequest;  // probe.h
+
+class ProbeLaunches {
+  public:
+    // Starts the launch that resolves the user's own command.
+    explicit ProbeLaunches(const ProbeRequest& request);
+
+    // Starts the renders of one view, instead of those of an earlier one.
+    void render(const ProbeView& view);
+
+    // Until all have ended, or one has failed. Throws Failure(Exit::interrupted).
+    void wait();
+
+    // The text of the launch that resolves; whether it came as far as the scene's first line.
+    std::string_view resolve_output() const { return launches_.front().child.output(); }
+    bool resolved() const;
+    bool started() const;  // POV-Ray could be started at all, or has not ended yet
+    std::filesystem::path settings_file() const;
+
+    // Of the render in POV-Ray's own order.
+    bool rendered() const;
+    bool timed_out() const;
+    std::string_view render_output() const { return launches_.at(1).child.output(); }
+
+    // The files. Throw Failure(Exit::scene), saying why, where there is none.
+    std::filesystem::path sample() const;
+    std::vector<std::filesystem::path> in_other_orders() const;
+
+    int count() const { return started_; }  // all that were ever started
+    double cpu_seconds() const;
+
+  private:
+    struct Launch {
+        std::filesystem::path folder;
+        ChildProcess child;
+        bool stopped = false;
+    };
+    void start(const std::string& name, const std::vector<std::string>& more);
+    static std::filesystem::path image_of(const Launch& launch);
+    void sleep() const;
+
+    const ProbeRequest& request_;
+    std::vector<Launch> launches_;
+    int started_ = 0, views_ = 0;
+    double earlier_cpu_seconds_ = 0;
+};
+
+}  // namespace mpipov
