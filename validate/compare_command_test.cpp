@@ -244,6 +244,18 @@ TEST_F(CompareProgram, ADamagedImageIsOneLine) {
     }
 }
 
+TEST_F(CompareProgram, WhatCannotBePrintedIsAnError) {
+    const std::vector<std::vector<std::string>> all{{"a.png", "b.png", "--no-ssim"},
+                                                    {"a.png", "a.png", "--no-ssim"},
+                                                    {"a.png", "b.png", "--no-ssim", "--json", "-"},
+                                                    {"--help"}};
+    for (const auto& arguments : all) {
+        EXPECT_EQ(run_on_full_disk(arguments), 4) << arguments.back();
+        EXPECT_THAT(output_, testing::MatchesRegex("mpipov-validate: cannot write to [^\n]*: No "
+                                                   "space left on device\n"));
+    }
+}
+
 TEST_F(CompareProgram, FileErrors) {
     EXPECT_EQ(run({"a.png", "none.png"}), 4);
     EXPECT_THAT(output_, HasSubstr("mpipov-validate: cannot read 'none.png': no such file"));

@@ -18,7 +18,7 @@ void write_json(const std::string& target, const nlohmann::json& json) {
         throw Failure(Exit::file, fmt::format("cannot write '{}': {}", target, why));
     };
     if (target == "-") {
-        if (std::puts(text.c_str()) < 0 || std::fflush(stdout) != 0) fail("standard output");
+        fmt::print("{}\n", text);  // main sees to it that it arrives
         return;
     }
     const auto write_to = [&](const fs::path& file) {

@@ -11,7 +11,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <string>
 #include <vector>
@@ -22,6 +24,13 @@ using mpipov::Exit;
 
 int finish(Exit code) {
     return static_cast<int>(code);
+}
+
+// What was printed must have arrived: a result that a full disk swallowed is none.
+int printed(int code) {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    throw mpipov::Failure(Exit::file,
+                          fmt::format("cannot write to standard output: {}", std::strerror(errno)));
 }
 
 int run(int argc, char** argv) {
@@ -53,7 +62,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         mpipov::block_interrupts();
-        return run(argc, argv);
+        return printed(run(argc, argv));
     } catch (const mpipov::Failure& failure) {
         fmt::print(stderr, "mpipov-validate: {}\n", failure.what());
         return finish(failure.code());

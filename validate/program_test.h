@@ -30,6 +30,20 @@ class ProgramTest : public testing::Test {
         return run_to_end(request, &output_).exit_code.value_or(-1);
     }
 
+    // The same with standard output on a full disk; output_ is standard error.
+    int run_on_full_disk(const std::vector<std::string>& arguments) {
+        std::vector<std::string> words{"-c", "exec \"$0\" \"$@\" >/dev/full",
+                                       MPIPOV_VALIDATE_PROGRAM};
+        words.insert(words.end(), subcommand_.begin(), subcommand_.end());
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        ChildRequest request;
+        request.argv = {"sh"};
+        request.argv.insert(request.argv.end(), words.begin(), words.end());
+        request.working_directory = folder_.path();
+        output_.clear();
+        return run_to_end(request, &output_).exit_code.value_or(-1);
+    }
+
     std::filesystem::path path(const std::filesystem::path& name) const {
         return folder_.path() / name;
     }
