@@ -108,7 +108,7 @@ void Coordinator::assign_to_all() {
 
 void Coordinator::assign_to(int worker) {
     int& under_way = under_way_[static_cast<std::size_t>(worker)];
-    if (under_way >= setup_.in_flight) return;
+    if (under_way >= setup_.in_flight.at(static_cast<std::size_t>(worker))) return;
     const std::optional<int> next = schedule_.next(worker);
     if (!next) return;
     Progress& progress = sections_[static_cast<std::size_t>(*next)];

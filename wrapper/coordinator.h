@@ -25,7 +25,7 @@ struct CoordinatorSetup {
     JobCommand job;
     ImageSize image;
     std::vector<RankRecord> ranks;  // slots 0: renders nothing
-    int in_flight = 1;              // launches under way per rank
+    std::vector<int> in_flight;     // launches under way at most, by rank
     int retries = 2;
     std::optional<double> timeout_seconds;
     int widest_halo = 32;  // a seam whose overlap still disagrees then is left as it is

@@ -89,7 +89,7 @@ class Rig {
         for (int rank = 0; rank < setup.workers; ++rank)
             c.ranks.push_back({rank, fmt::format("host{}", rank), 1, 0, 0});
         if (setup.dedicated_coordinator) c.ranks[0].slots = 0;
-        c.in_flight = setup.in_flight;
+        c.in_flight.assign(static_cast<std::size_t>(setup.workers), setup.in_flight);
         c.retries = setup.retries;
         c.widest_halo = setup.widest_halo;
         return c;

@@ -47,6 +47,7 @@ class EventLoopTest : public FakePovrayTest {
         c.job = fake_job(c.image);
         c.timeout_seconds = 60;
         for (int rank = 0; rank < ranks; ++rank) c.ranks.push_back({rank, "host", 1, 0, 0});
+        c.in_flight.assign(c.ranks.size(), 1);
         return c;
     }
 
@@ -90,7 +91,7 @@ TEST_F(EventLoopTest, RendersAlone) {
 
 TEST_F(EventLoopTest, RendersOnSeveralRanks) {
     CoordinatorSetup c = setup(3, 12);
-    c.in_flight = 2;
+    c.in_flight = {2, 2, 2};
     const RunRecord record = run(c);
     EXPECT_EQ(record.totals.launches, 12);
     for (const RankRecord& rank : record.ranks) EXPECT_GT(rank.sections, 0);

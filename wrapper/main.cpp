@@ -62,13 +62,21 @@ void keep_to(const std::vector<int>& cpus) {
     sched_setaffinity(0, sizeof set, &set);
 }
 
-RankRecord about_this_rank(const Options& options, int rank) {
+struct Self {
+    RankRecord record;
+    int pool = 1;  // cores, see PlanRequest::pools
+    int ranks_of_host = 1;
+};
+
+Self about_this_rank(const Options& options, int rank) {
     const HostShare share = host_share();
     // A launch more than there are slots is under way while others start up (--in-flight): only the
     // kernel can keep them all to so many cores.
     if (options.slots) keep_to(slot_cpus(share.cpus, share.local_rank, *options.slots));
-    return {rank, host_name(), options.slots.value_or(fair_slots(share.cpus, share.local_rank)), 0,
-            0};
+    const int slots = options.slots.value_or(fair_slots(share.cpus, share.local_rank));
+    return {{rank, host_name(), slots, 0, 0},
+            options.slots.value_or(pooled_slots(share.cpus, share.local_rank)),
+            share.local_size};
 }
 
 void send_refusal(Transport& transport, const RankRecord& self, Exit code, const std::string& why) {
@@ -83,20 +91,24 @@ void send_refusal(Transport& transport, const RankRecord& self, Exit code, const
 }
 
 // What every rank but 0 does. Whatever stands in its way, rank 0 hears of it.
-void serve(const Options& options, const RankRecord& self, Transport& transport) {
+void serve(const Options& options, const Self& self, Transport& transport) {
+    const RankRecord& record = self.record;
     try {
-        const ScratchFolder scratch(fmt::format("rank{}", self.rank));
+        const ScratchFolder scratch(fmt::format("rank{}", record.rank));
         Worker worker(transport, scratch.path());
         const std::string povray = povray_version(options.povray);
         transport.send({MessageKind::hello,
                         0,
-                        {{"slots", self.slots}, {"host", self.host}, {"povray", povray}},
+                        {{"slots", record.slots},
+                         {"pool", self.pool},
+                         {"host", record.host},
+                         {"povray", povray}},
                         {}});
         run_event_loop({transport, worker});
     } catch (const Failure& failure) {
-        send_refusal(transport, self, failure.code(), failure.what());
+        send_refusal(transport, record, failure.code(), failure.what());
     } catch (const std::exception& error) {
-        send_refusal(transport, self, Exit::interrupted, error.what());
+        send_refusal(transport, record, Exit::interrupted, error.what());
     }
 }
 
@@ -119,8 +131,8 @@ bool dismiss(Transport& transport) {
 }
 
 // What rank 0 does.
-void coordinate(const Options& options, const std::vector<std::string>& arguments,
-                const RankRecord& self, Transport& transport) {
+void coordinate(const Options& options, const std::vector<std::string>& arguments, const Self& self,
+                Transport& transport) {
     const ScratchFolder scratch("rank0");
     Worker worker(transport, scratch.path());  // its end ends its launches
     JobSetup setup;
@@ -129,7 +141,9 @@ void coordinate(const Options& options, const std::vector<std::string>& argument
     setup.command.insert(setup.command.begin(), "mpipov");
     setup.versions = {
         {"mpipov", MPIPOV_VERSION}, {"mpi", mpi_version()}, {"openimageio", OIIO_VERSION_STRING}};
-    setup.rank0 = self;
+    setup.rank0 = self.record;
+    setup.pool0 = self.pool;
+    setup.ranks_of_host = self.ranks_of_host;
     run_job(setup, transport, worker);
 }
 
@@ -141,7 +155,7 @@ int run(const std::vector<std::string>& arguments, int rank) {
         if (rank == 0 && options.version) print_versions(options.povray);
         return 0;
     }
-    const RankRecord self = about_this_rank(options, rank);
+    const Self self = about_this_rank(options, rank);
     MpiTransport transport;
     if (rank != 0) {
         serve(options, self, transport);

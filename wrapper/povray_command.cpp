@@ -58,6 +58,22 @@ std::string quote_argument(const std::string& argument) {
     return argument.substr(0, value) + quoted(name);
 }
 
+std::vector<std::string> command(const JobCommand& job, const std::vector<std::string>& area,
+                                 const std::filesystem::path& output_base) {
+    std::vector<std::string> argv{job.povray};
+    argv.insert(argv.end(), job.user_arguments.begin(), job.user_arguments.end());
+    argv.insert(argv.end(), job.format_arguments.begin(), job.format_arguments.end());
+    // No display, no pause, no continued trace, no INI file of the user's once per section; all
+    // streams to the console, where we read them.
+    for (const char* ours : {"-D", "-P", "-C", "+V", "Create_Ini=", "All_Console=on"})
+        argv.emplace_back(ours);
+    argv.insert(argv.end(), area.begin(), area.end());
+    argv.push_back(fmt::format("+WT{}", job.threads));
+    if (job.block > 0) argv.push_back(fmt::format("+BS{}", job.block));
+    argv.push_back(fmt::format("+O\"{}\"", output_base.string()));
+    return argv;
+}
+
 }  // namespace
 
 Rect launch_area(const Rect& render, const ImageSize& image) {
@@ -73,22 +89,15 @@ std::vector<std::string> area_arguments(const Rect& area) {
             fmt::format("+SR{}", start(area.y0)), fmt::format("+ER{}", area.y1)};
 }
 
+std::vector<std::string> whole_command(const JobCommand& job,
+                                       const std::filesystem::path& output_base) {
+    return command(job, {}, output_base);
+}
+
 std::vector<std::string> section_command(const JobCommand& job, const Rect& render,
                                          const ImageSize& image,
                                          const std::filesystem::path& output_base) {
-    std::vector<std::string> argv{job.povray};
-    argv.insert(argv.end(), job.user_arguments.begin(), job.user_arguments.end());
-    argv.insert(argv.end(), job.format_arguments.begin(), job.format_arguments.end());
-    // No display, no pause, no continued trace, no INI file of the user's once per section; all
-    // streams to the console, where we read them.
-    for (const char* ours : {"-D", "-P", "-C", "+V", "Create_Ini=", "All_Console=on"})
-        argv.emplace_back(ours);
-    for (std::string& argument : area_arguments(launch_area(render, image)))
-        argv.push_back(std::move(argument));
-    argv.push_back(fmt::format("+WT{}", job.threads));
-    if (job.block > 0) argv.push_back(fmt::format("+BS{}", job.block));
-    argv.push_back(fmt::format("+O\"{}\"", output_base.string()));
-    return argv;
+    return command(job, area_arguments(launch_area(render, image)), output_base);
 }
 
 std::vector<std::string> quote_arguments(const std::vector<std::string>& arguments) {

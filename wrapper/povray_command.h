@@ -39,6 +39,10 @@ std::vector<std::string> section_command(const JobCommand& job, const Rect& rend
                                          const ImageSize& image,
                                          const std::filesystem::path& output_base);
 
+// The same for all that the user asked for: no area, so it can start before anybody knows the size.
+std::vector<std::string> whole_command(const JobCommand& job,
+                                       const std::filesystem::path& output_base);
+
 // POV-Ray splits an argument at blanks (`"+W320 +H240"` are two options), so a file name that has
 // blanks must be in quotation marks. Users do not expect that: where an argument is a file option
 // with blanks that can only be part of the name, this adds the marks.

@@ -155,5 +155,16 @@ TEST(PovrayCommand, OnlyJpegAndTargaAreStoredDifferently) {
         EXPECT_THAT(section_format(type), IsEmpty());
 }
 
+TEST(WholeCommand, IsASectionsWithoutAnArea) {
+    JobCommand job;
+    job.user_arguments = {"scene.pov", "+W64"};
+    job.threads = 3;
+    std::vector<std::string> section = section_command(job, {0, 0, 64, 48}, {64, 48}, "/tmp/x");
+    std::erase_if(section, [](const std::string& argument) {
+        return argument.rfind("+S", 0) == 0 || argument.rfind("+E", 0) == 0;
+    });
+    EXPECT_EQ(whole_command(job, "/tmp/x"), section);
+}
+
 }  // namespace
 }  // namespace mpipov

@@ -2,6 +2,7 @@
 
 #include "coordinator.h"
 #include "cpu_time.h"
+#include "early_render.h"
 #include "event_loop.h"
 #include "failure.h"
 #include "interrupt.h"
@@ -41,10 +42,16 @@ class RunClock {
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-std::vector<RankRecord> meet_ranks(const JobSetup& setup, Transport& transport,
-                                   const std::string& povray) {
-    std::vector<RankRecord> ranks(static_cast<std::size_t>(transport.size()));
-    ranks[0] = setup.rank0;
+struct MetRanks {
+    std::vector<RankRecord> ranks;
+    std::vector<int> pools;  // PlanRequest::pools
+};
+
+MetRanks meet_ranks(const JobSetup& setup, Transport& transport, const std::string& povray) {
+    const auto size = static_cast<std::size_t>(transport.size());
+    MetRanks met{std::vector<RankRecord>(size), std::vector<int>(size)};
+    met.ranks[0] = setup.rank0;
+    met.pools[0] = setup.pool0;
     for (int missing = transport.size() - 1; missing > 0; --missing) {
         const auto message = wait_for_message(transport, hello_seconds);
         throw_if_interrupted();
@@ -61,15 +68,18 @@ std::vector<RankRecord> meet_ranks(const JobSetup& setup, Transport& transport,
                           fmt::format("host {} has POV-Ray {} and rank 0 has {}: their pixels "
                                       "could differ",
                                       host, head.at("povray").get<std::string>(), povray));
-        ranks.at(static_cast<std::size_t>(message->peer)) = {message->peer, host, head.at("slots"),
-                                                             0, 0};
+        const auto peer = static_cast<std::size_t>(message->peer);
+        met.ranks.at(peer) = {message->peer, host, head.at("slots"), 0, 0};
+        met.pools.at(peer) = head.at("pool");
     }
-    if (setup.options.dedicated_coordinator) ranks[0].slots = 0;
-    return ranks;
+    if (setup.options.dedicated_coordinator) met.ranks[0].slots = 0;
+    return met;
 }
 
-PlanRequest plan_request(const Options& options, const std::vector<RankRecord>& ranks) {
+PlanRequest plan_request(const Options& options, const MetRanks& met, int early_threads) {
     PlanRequest request;
+    request.early_threads = early_threads;
+    request.pools = met.pools;
     request.shape = options.shape;
     request.seams = options.seams;
     request.halo = options.halo;
@@ -78,7 +88,7 @@ PlanRequest plan_request(const Options& options, const std::vector<RankRecord>& 
     request.threads = options.threads;
     request.in_flight = options.in_flight;
     request.dedicated_coordinator = options.dedicated_coordinator;
-    for (const RankRecord& rank : ranks) request.slots.push_back(rank.slots);
+    for (const RankRecord& rank : met.ranks) request.slots.push_back(rank.slots);
     return request;
 }
 
@@ -106,7 +116,9 @@ CoordinatorSetup coordinator_setup(const Options& options,
     setup.job = job_command(options, arguments, probe, plan);
     setup.image = {plan.record.image.width, plan.record.image.height};
     setup.ranks = ranks;
-    setup.in_flight = plan.record.in_flight;
+    for (std::size_t rank = 0; rank < ranks.size(); ++rank)
+        setup.ranks[rank].slots = plan.slots[rank];
+    setup.in_flight = plan.in_flight;
     setup.retries = options.retries;
     setup.timeout_seconds = options.timeout_seconds.value_or(
         timeout_base_seconds +
@@ -160,6 +172,8 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
 
     const std::vector<std::string> arguments = quote_arguments(options.povray_arguments);
     const ScratchFolder scratch("probe");
+    std::optional<EarlyRender> early =
+        start_early(setup, transport.size(), arguments, scratch.path() / "early");
     const Probe probe =
         run_probe({options.povray, arguments, scratch.path() / "probe", options.timeout_seconds});
     const std::string& povray = probe.povray;
@@ -169,13 +183,16 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     record.warnings = probe.warnings;
 
     const OutputPlace place(probe.result.image.output_file, options.record, options.work_dir);
-    const std::vector<RankRecord> ranks = meet_ranks(setup, transport, povray);
+    const MetRanks met = meet_ranks(setup, transport, povray);
+    if (early && !section_format(probe.result.image.type).empty()) early.reset();
     Plan plan;
     try {
-        plan = make_plan(plan_request(options, ranks), probe.result);
+        plan = make_plan(plan_request(options, met, early ? early->threads : 0), probe.result);
     } catch (const std::invalid_argument& error) {
         throw Failure(Exit::usage, error.what());
     }
+    if (early && plan.takes_early) worker.adopt(0, std::move(early->launch));
+    early.reset();
     if (options.dry_run) {
         fmt::print("{}\n", to_json(plan.record).dump(2));
         return;
@@ -190,8 +207,8 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
         if (options.resume) take_grid(plan, *journal, options);
         record.plan = plan.record;
         record.output = place.image();
-        coordinator.emplace(coordinator_setup(options, arguments, probe, plan, ranks), transport,
-                            canvas, journal ? &*journal : nullptr,
+        coordinator.emplace(coordinator_setup(options, arguments, probe, plan, met.ranks),
+                            transport, canvas, journal ? &*journal : nullptr,
                             [&clock] { return clock.seconds(); });
 
         ProgressView progress(options.progress);

@@ -17,6 +17,8 @@ struct JobSetup {
     std::vector<std::string> command;             // our argv, for the record
     std::map<std::string, std::string> versions;  // without POV-Ray's
     RankRecord rank0;                             // host and slots of rank 0
+    int pool0 = 1;          // what it may use where the others of its host render nothing
+    int ranks_of_host = 1;  // of rank 0's
 };
 
 // Returns when the image and the record are written, or the plan is printed (--dry-run). Throws

@@ -98,11 +98,12 @@ int clamp_to(long long value, long long low, long long high) {
 struct Choice {
     int sections = 1, threads = 1;
     double wall = 0;
+    bool pooled = false;  // one rank a host renders, with all of its cores
 };
 
 // The cheapest number of sections for launches of `threads` threads.
 Choice cheapest(const CostModel& cost, int lanes, int threads, long long most) {
-    Choice best{1, threads, cost.wall_seconds(1, lanes, threads)};
+    Choice best;
     const auto limit = std::min<long long>(most, 64LL * lanes);
     const int fewest =
         clamp_to(std::llround(cost.render / threads / longest_section_seconds), 1, limit);
@@ -124,39 +125,44 @@ long long most_sections(GridRequest grid, Shape shape) {
     return max_sections(grid);
 }
 
-// One launch under way for each lane, and enough more that a core has work while launches that
+// For each lane one launch under way, and enough more that a core has work while launches that
 // start or end are idle.
-int choose_in_flight(const CostModel& cost, int sections, int lanes_of_rank, int threads,
-                     int all_lanes) {
-    if (sections <= all_lanes) return lanes_of_rank;
-    const double busy = std::max(0.02, cost.render / sections / threads + cost.per_launch);
-    const int extra = clamp_to(std::llround(std::ceil(cost.startup_wall / busy)), 1, 3);
-    return lanes_of_rank * (1 + extra);
+int launches_per_lane(const CostModel& cost, const Choice& choice, int all_lanes) {
+    if (choice.sections <= all_lanes) return 1;
+    const double busy =
+        std::max(0.02, cost.render / choice.sections / choice.threads + cost.per_launch);
+    return 1 + clamp_to(std::llround(std::ceil(cost.startup_wall / busy)), 1, 3);
 }
 
 // What there is to render with.
 struct Cores {
-    std::vector<int> slots;  // of the ranks that render
-    int ranks = 0, most_of_a_rank = 0;
+    std::vector<int> slots;  // by rank, 0: renders nothing
+    int ranks = 0;           // that render
+    int most_of_a_rank = 0;
 
     // Launches of so many threads that can run side by side, at least one on each rank.
     int lanes(int threads) const {
         return std::accumulate(slots.begin(), slots.end(), 0, [threads](int sum, int n) {
-            return sum + std::max(1, n / threads);
+            return n > 0 ? sum + std::max(1, n / threads) : sum;
         });
     }
 };
 
 Cores count_cores(const std::vector<int>& slots) {
-    Cores cores;
-    std::copy_if(slots.begin(), slots.end(), std::back_inserter(cores.slots),
-                 [](int n) { return n > 0; });
-    if (cores.slots.empty())
+    Cores cores{slots, 0, 0};
+    cores.ranks =
+        static_cast<int>(std::count_if(slots.begin(), slots.end(), [](int n) { return n > 0; }));
+    if (cores.ranks == 0)
         throw std::invalid_argument(
             "no rank is left to render: start more than one with --dedicated-coordinator");
-    cores.ranks = static_cast<int>(cores.slots.size());
     cores.most_of_a_rank = *std::max_element(cores.slots.begin(), cores.slots.end());
     return cores;
+}
+
+// One rank a host, with all of its cores.
+Cores pooled_cores(const PlanRequest& request) {
+    if (request.pools.empty() || request.dedicated_coordinator) return {};
+    return count_cores(request.pools);
 }
 
 // How many sections, and launches of how many threads.
@@ -184,9 +190,14 @@ Choice choose_sections(const PlanRequest& request, const GridRequest& grid, cons
     const int lanes = cores.lanes(threads);
     if (request.schedule == Policy::static_) return {clamp_to(lanes, 1, most), threads, 0};
     Choice choice = cheapest(cost, lanes, threads, most);
-    if (!request.threads && !one_thread && cores.most_of_a_rank > 1) {
-        const Choice threaded = cheapest(cost, cores.ranks, cores.most_of_a_rank, most);
-        if (threaded.wall < choice.wall) choice = threaded;
+    if (!request.threads && !one_thread) {
+        // Parse and photons are paid once a launch: fewer launches of more threads.
+        for (const Cores& with : {cores, pooled_cores(request)}) {
+            if (with.most_of_a_rank < 2) continue;
+            Choice threaded = cheapest(cost, with.ranks, with.most_of_a_rank, most);
+            threaded.pooled = with.slots != cores.slots;
+            if (threaded.wall < choice.wall) choice = threaded;
+        }
     }
     if (request.dedicated_coordinator)
         choice.sections =
@@ -202,7 +213,8 @@ double CostModel::wall_seconds(int sections, int lanes, int threads) const {
     // Shares are never equal: half of one is lost at the end where several lanes must meet. A
     // launch's own threads share by small blocks and lose next to nothing.
     const double imbalance = lanes > 1 ? render / sections / threads / 2 : 0;
-    return startup_wall + work + imbalance;
+    const bool early = sections == 1 && threads == early_threads;
+    return (early ? 0 : startup_wall) + work + imbalance;
 }
 
 CostModel make_cost_model(const ProbeResult& given) {
@@ -222,7 +234,8 @@ CostModel make_cost_model(const ProbeResult& given) {
 Plan make_plan(const PlanRequest& request, const ProbeResult& given) {
     const ProbeResult probe = with_sane_times(given);
     Plan plan;
-    const CostModel cost = make_cost_model(probe);
+    CostModel cost = make_cost_model(probe);
+    cost.early_threads = request.early_threads;
     const Antialiasing& aa = probe.report.antialiasing;
     PlanRecord& record = plan.record;
     record.effects = find_effects(probe);
@@ -238,8 +251,10 @@ Plan make_plan(const PlanRequest& request, const ProbeResult& given) {
     grid.block = probe.user_block > 0 ? probe.user_block : povray_block;
     grid.halo = grid.seams == Seams::halo ? request.halo : 0;
 
-    const Cores cores = count_cores(request.slots);
+    Cores cores = count_cores(request.slots);
     const Choice choice = choose_sections(request, grid, cost, cores, pinned);
+    if (choice.pooled) cores = pooled_cores(request);
+    plan.slots = cores.slots;
     if (pinned && choice.threads > 1)
         plan.notes.push_back(
             "the scene depends on the order of rendering: with more than one thread a launch, "
@@ -265,10 +280,14 @@ Plan make_plan(const PlanRequest& request, const ProbeResult& given) {
     record.sections = choice.sections;
     record.schedule = to_string(request.schedule);
     record.threads = choice.threads;
-    const int lanes_of_rank = std::max(1, cores.most_of_a_rank / choice.threads);
     const int all_lanes = cores.lanes(choice.threads);
-    record.in_flight = request.in_flight.value_or(
-        choose_in_flight(cost, choice.sections, lanes_of_rank, choice.threads, all_lanes));
+    const int per_lane = launches_per_lane(cost, choice, all_lanes);
+    for (const int slots : plan.slots)
+        plan.in_flight.push_back(
+            request.in_flight.value_or(std::max(1, slots / choice.threads) * per_lane));
+    record.in_flight = *std::max_element(plan.in_flight.begin(), plan.in_flight.end());
+    plan.takes_early = request.early_threads > 0 && choice.sections == 1 &&
+                       choice.threads == request.early_threads && grid.seams != Seams::halo;
     record.predicted = {cost.wall_seconds(choice.sections, all_lanes, choice.threads),
                         cost.cpu_seconds(choice.sections)};
     if (choice.sections < cores.ranks)

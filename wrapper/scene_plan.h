@@ -34,12 +34,20 @@ struct PlanRequest {
     std::optional<int> threads;
     std::optional<int> in_flight;
     std::vector<int> slots;  // cores of each rank, 0 for one that renders nothing
+    // Cores that a rank may use where the other ranks of its host render nothing; 0 for those
+    // others. Empty: every rank keeps to its slots.
+    std::vector<int> pools;
     bool dedicated_coordinator = false;
+    // A launch of the whole image with so many threads is under way already, 0: none.
+    int early_threads = 0;
 };
 
 struct Plan {
     PlanRecord record;
     Partition partition;
+    std::vector<int> slots;          // by rank: what it renders with; 0: nothing
+    std::vector<int> in_flight;      // by rank: launches under way; the record's is the most
+    bool takes_early = false;        // the one section is what the early launch renders
     std::vector<std::string> notes;  // what the user should know about the choice
 };
 
@@ -51,6 +59,7 @@ struct CostModel {
     double render = 0;          // tracing the whole region
     double per_launch = 0;      // paid again by every launch: parse, photons, full-frame output
     double startup_wall = 0.7;  // idle wall time of a launch, during which its core is free
+    int early_threads = 0;      // a launch of all with so many threads has its start-up behind it
 
     double cpu_seconds(int sections) const { return render + sections * per_launch; }
     // Wall time of `sections` equal shares on `lanes` launches at once of `threads` threads each.

@@ -384,5 +384,68 @@ TEST(ScenePlan, CostModelAddsUp) {
     EXPECT_LT(cost.wall_seconds(10, 10, 1), cost.wall_seconds(10, 1, 1));
 }
 
+TEST(ScenePlan, RanksOfOneHostGiveTheirCoresToOneLaunchWhereThatIsFaster) {
+    PlanRequest request;
+    request.slots = {1, 1};
+    request.pools = {2, 0};
+    const Plan plan = make_plan(request, scene(640, 480, 30));
+    EXPECT_EQ(plan.record.sections, 1);
+    EXPECT_EQ(plan.record.threads, 2);
+    EXPECT_THAT(plan.slots, testing::ElementsAre(2, 0));
+    EXPECT_THAT(plan.notes, testing::IsEmpty());
+
+    request.threads = 1;
+    EXPECT_THAT(make_plan(request, scene(640, 480, 30)).slots, testing::ElementsAre(1, 1));
+    request.threads.reset();
+    request.dedicated_coordinator = true;
+    request.slots = {0, 1};
+    EXPECT_THAT(make_plan(request, scene(640, 480, 30)).slots, testing::ElementsAre(0, 1));
+    request.dedicated_coordinator = false;
+    request.slots = {1, 1};
+    request.schedule = Policy::static_;
+    EXPECT_EQ(make_plan(request, scene(640, 480, 30)).record.sections, 2) << "as MPIPOV1";
+}
+
+TEST(ScenePlan, AnOrderDependentSceneIsNotRenderedByThreads) {
+    PlanRequest request;
+    request.slots = {1, 1};
+    request.pools = {2, 0};
+    request.early_threads = 2;
+    ProbeResult probe = scene(640, 480, 30);
+    probe.order_dependent = true;
+    const Plan plan = make_plan(request, probe);
+    EXPECT_EQ(plan.record.threads, 1);
+    EXPECT_FALSE(plan.takes_early);
+    EXPECT_THAT(plan.slots, testing::ElementsAre(1, 1));
+}
+
+TEST(ScenePlan, TakesTheEarlyLaunchWhereItIsThePlan) {
+    PlanRequest request;
+    request.slots = {2};
+    request.pools = {2};
+    request.early_threads = 2;
+    EXPECT_TRUE(make_plan(request, scene(640, 480, 1)).takes_early);
+    request.threads = 1;
+    EXPECT_FALSE(make_plan(request, scene(640, 480, 1)).takes_early) << "other threads";
+    request.threads.reset();
+    request.seams = Seams::halo;
+    EXPECT_FALSE(make_plan(request, scene(640, 480, 1)).takes_early) << "another block size";
+    request.seams.reset();
+    request.sections = 4;
+    EXPECT_FALSE(make_plan(request, scene(640, 480, 1)).takes_early);
+}
+
+TEST(ScenePlan, RanksHaveLaunchesUnderWayByTheirSlots) {
+    PlanRequest request;
+    request.slots = {1, 4};
+    request.threads = 1;
+    request.sections = 40;
+    request.shape = Shape::tiles;
+    const Plan plan = make_plan(request, scene(640, 480, 400));
+    ASSERT_EQ(plan.in_flight.size(), 2u);
+    EXPECT_EQ(plan.in_flight[1], 4 * plan.in_flight[0]);
+    EXPECT_EQ(plan.record.in_flight, plan.in_flight[1]);
+}
+
 }  // namespace
 }  // namespace mpipov

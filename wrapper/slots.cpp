@@ -22,6 +22,12 @@ int fair_slots(const std::vector<std::vector<int>>& cpus, int local_rank) {
     return std::max(1, all / sharers + (one_more ? 1 : 0));
 }
 
+int pooled_slots(const std::vector<std::vector<int>>& cpus, int local_rank) {
+    const auto mine = static_cast<std::size_t>(local_rank);
+    if (sharers_before(cpus, local_rank) > 0) return 0;
+    return std::max(1, static_cast<int>(cpus.at(mine).size()));
+}
+
 std::vector<int> slot_cpus(const std::vector<std::vector<int>>& cpus, int local_rank, int slots) {
     const std::vector<int>& mine = cpus.at(static_cast<std::size_t>(local_rank));
     if (mine.empty()) return {};

@@ -22,6 +22,14 @@ TEST(Slots, RanksThatAreBoundHaveTheirOwn) {
     EXPECT_EQ(fair_slots(masks, 2), 3);
 }
 
+TEST(Slots, TheFirstOfAMaskCouldUseAllOfIt) {
+    const Masks masks{{0, 1}, {2, 3, 4}, {0, 1}, {2, 3, 4}};
+    EXPECT_EQ(pooled_slots(masks, 0), 2);
+    EXPECT_EQ(pooled_slots(masks, 1), 3);
+    EXPECT_EQ(pooled_slots(masks, 2), 0);
+    EXPECT_EQ(pooled_slots(masks, 3), 0);
+}
+
 TEST(Slots, WhatIsSharedIsUsedOnceAsAWhole) {
     for (int cores = 1; cores <= 9; ++cores)
         for (int ranks = 1; ranks <= cores; ++ranks) {

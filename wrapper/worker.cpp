@@ -14,7 +14,6 @@ namespace mpipov {
 namespace {
 
 constexpr int coordinator = 0;
-constexpr const char* image_name = "section";  // but for its extension
 
 std::string describe_end(const ChildProcess& child) {
     const ChildResult& result = child.result();
@@ -41,17 +40,6 @@ std::filesystem::path find_image(const std::filesystem::path& base) {
             return entry.path();
     }
     throw std::runtime_error("POV-Ray wrote no image");
-}
-
-Worker::Folder::Folder(std::filesystem::path path) : path_(std::move(path)) {
-    std::filesystem::create_directory(path_);
-}
-
-Worker::Folder::Folder(Folder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
-
-Worker::Folder::~Folder() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
 }
 
 Worker::Worker(Transport& transport, std::filesystem::path scratch)
@@ -83,12 +71,9 @@ void Worker::start(const Message& message) {
                     rect_from_json(message.head.at("render"))};
     const int attempt = message.head.at("attempt");
     try {
-        Folder folder(scratch_ / fmt::format("{}-{}", section.id, attempt));
-        ChildRequest request;
-        request.argv = section_command(job_, section.render, image_, folder.path() / image_name);
-        request.timeout_seconds = timeout_seconds_;
-        launches_.push_back(
-            {section, attempt, std::move(folder), ChildProcess::start(request), std::nullopt, 0});
+        PreparedLaunch prepared = launch(section, attempt);
+        launches_.push_back({section, attempt, std::move(prepared.folder),
+                             std::move(prepared.child), std::nullopt, 0});
     } catch (const std::exception& error) {
         transport_.send({MessageKind::failed,
                          coordinator,
@@ -98,6 +83,25 @@ void Worker::start(const Message& message) {
                           {"cpu_seconds", 0.0}},
                          {}});
     }
+}
+
+PreparedLaunch Worker::launch(const Section& section, int attempt) {
+    if (adopted_ && adopted_for_ == section.id && attempt == 1) {
+        PreparedLaunch adopted = std::move(*adopted_);
+        adopted_.reset();
+        return adopted;
+    }
+    LaunchFolder folder(scratch_ / fmt::format("{}-{}", section.id, attempt));
+    ChildRequest request;
+    request.argv =
+        section_command(job_, section.render, image_, folder.path() / section_image_name);
+    request.timeout_seconds = timeout_seconds_;
+    return {std::move(folder), ChildProcess::start(request)};
+}
+
+void Worker::adopt(int section, PreparedLaunch launch) {
+    adopted_.emplace(std::move(launch));
+    adopted_for_ = section;
 }
 
 nlohmann::json Worker::head_of(const Launch& launch) const {
@@ -132,7 +136,7 @@ Worker::State Worker::begin_reading(Launch& launch) {
         send_failure(launch, describe_end(launch.child));
         return State::over;
     }
-    launch.reader.emplace(find_image(launch.folder.path() / image_name), image_.width,
+    launch.reader.emplace(find_image(launch.folder.path() / section_image_name), image_.width,
                           image_.height, launch.section.render, max_band_bytes);
     return State::busy;
 }
@@ -192,6 +196,7 @@ void Worker::stop() {
     // First all of them, so that they end side by side; then ~ChildProcess waits for each.
     for (Launch& launch : launches_) launch.child.kill_now();
     launches_.clear();
+    adopted_.reset();
 }
 
 }  // namespace mpipov

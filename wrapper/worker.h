@@ -5,6 +5,7 @@
 #include "child_process.h"
 #include "image_file.h"
 #include "povray_command.h"
+#include "prepared_launch.h"
 #include "section.h"
 #include "transport.h"
 
@@ -25,6 +26,9 @@ class Worker {
 
     void handle(const Message& message);
 
+    // A launch that is under way already: the first attempt at `section` takes it.
+    void adopt(int section, PreparedLaunch launch);
+
     // Looks after the launches; true where something happened.
     bool step();
 
@@ -38,22 +42,10 @@ class Worker {
     void stop();
 
   private:
-    // Removed with all that is in it.
-    class Folder {
-      public:
-        explicit Folder(std::filesystem::path path);
-        Folder(Folder&& other) noexcept;
-        Folder& operator=(Folder&&) = delete;
-        ~Folder();
-        const std::filesystem::path& path() const { return path_; }
-
-      private:
-        std::filesystem::path path_;
-    };
     struct Launch {
         Section section;
         int attempt = 0;
-        Folder folder;  // before the child, which must be gone when it is removed
+        LaunchFolder folder;  // before the child, which must be gone when it is removed
         ChildProcess child;
         std::optional<SectionReader> reader;  // once POV-Ray has ended
         double last_fraction = 0;
@@ -61,6 +53,7 @@ class Worker {
     enum class State { busy, idle, over };
 
     void start(const Message& message);
+    PreparedLaunch launch(const Section& section, int attempt);
     State step(Launch& launch);
     State begin_reading(Launch& launch);
     State send_bands(Launch& launch);
@@ -74,8 +67,13 @@ class Worker {
     ImageSize image_;
     std::optional<double> timeout_seconds_;
     std::list<Launch> launches_;
+    std::optional<PreparedLaunch> adopted_;
+    int adopted_for_ = -1;  // section
     bool stopped_ = false;
 };
+
+// The name of the image that a section's launch makes, but for its extension.
+constexpr const char* section_image_name = "section";
 
 // The image that POV-Ray made of the output name `base`: it adds an extension that we do not know
 // (and the number of a frame), and may put files of other names beside it (+GA). Throws
