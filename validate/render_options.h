@@ -1,11 +1,12 @@
-// What `noise` and `seams` have in common: a scene with POV-Ray's own arguments, and how to tell
-// those from ours.
+// What the subcommands that render have in common: a scene with POV-Ray's own arguments, and how to
+// tell those from ours.
 #pragma once
 
 #include "failure.h"
 
 #include <CLI/App.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -22,6 +23,14 @@ std::vector<std::string> povray_arguments(const CLI::App& app);
 
 // "1,2,4" -> the pieces. Throws Failure(Exit::usage), naming the option, where one is empty.
 std::vector<std::string> split_list(const std::string& option, const std::string& text);
+// What is listed twice counts once, where it stands first.
+template <class T>
+std::vector<T> each_once(const std::vector<T>& values) {
+    std::vector<T> once;
+    for (const T& value : values)
+        if (std::find(once.begin(), once.end(), value) == once.end()) once.push_back(value);
+    return once;
+}
 // Whole numbers from 1.
 std::vector<int> split_numbers(const std::string& option, const std::string& text);
 

@@ -67,11 +67,11 @@ std::vector<std::string> schedules_of(const std::string& text) {
 Exit run(const CLI::App& app, const SeamsOptions& options) {
     SeamsRequest request;
     request.arguments = povray_arguments(app);
-    request.schedules = schedules_of(options.schedule);
-    request.ranks = split_numbers("--ranks", options.ranks);
-    request.shapes = shapes_of(options.shape);
-    request.seams = seams_of(options.seams);
-    request.sections = split_numbers("--sections", options.sections);
+    request.schedules = each_once(schedules_of(options.schedule));
+    request.ranks = each_once(split_numbers("--ranks", options.ranks));
+    request.shapes = each_once(shapes_of(options.shape));
+    request.seams = each_once(seams_of(options.seams));
+    request.sections = each_once(split_numbers("--sections", options.sections));
     request.renders = options.renders;
     request.serial = options.serial;
     request.povray = options.povray;

@@ -50,7 +50,8 @@ class RenderPrograms : public ProgramTest {
 
 TEST_F(RenderPrograms, AnExactSceneIsIdenticalInSections) {
     EXPECT_EQ(run({"seams", scene("effects/none.pov"), "+W64", "+H48", "-A", "--out", "out",
-                   "--ranks", "1", "--sections", "2,40", "--seams", "aligned"}),
+                   "--ranks", "1,1", "--sections", "2,40,2", "--seams", "aligned,aligned",
+                   "--shape", "columns,columns", "--schedule", "dynamic,dynamic"}),
               0)
         << output_;
     const json found = read("out/seams.json");

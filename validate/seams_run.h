@@ -14,6 +14,7 @@ namespace mpipov {
 struct SeamKind {
     Seams seams = Seams::aligned;
     int halo = 0;
+    bool operator==(const SeamKind&) const = default;
     std::string text() const;  // as --seams of mpipov takes it
     std::string name() const;  // without a colon
 };

@@ -23,14 +23,6 @@ struct SpeedupOptions {
     bool dedicated = false;
 };
 
-template <class T>
-std::vector<T> each_once(const std::vector<T>& values) {
-    std::vector<T> once;
-    for (const T& value : values)
-        if (std::find(once.begin(), once.end(), value) == once.end()) once.push_back(value);
-    return once;
-}
-
 SpeedupChoice choice_of(const SpeedupOptions& options) {
     SpeedupChoice choice;
     choice.ranks = each_once(split_numbers("--ranks", options.ranks));
