@@ -12,7 +12,7 @@ namespace {
 
 // Measured, docs/simulation.md says how; the first three are those of the planner's cost model.
 constexpr double start_seconds = 0.7, bare_cpu = 0.06, frame_pixel_cpu = 70e-9;
-constexpr double answer_seconds = 0.02;
+constexpr double answer_seconds = 0.025;
 constexpr double service_seconds = 1.0 / 2000;
 constexpr double before_seconds = 1.0;
 constexpr double after_seconds = 0.35, after_pixel_seconds = 70e-9;
