@@ -23,18 +23,7 @@ struct SeamsOptions {
     int renders = default_noise_renders;
 };
 
-std::vector<Shape> shapes_of(const std::string& text) {
-    std::vector<Shape> shapes;
-    for (const std::string& piece : split_list("--shape", text)) {
-        const std::size_t before = shapes.size();
-        for (const Shape shape : {Shape::columns, Shape::rows, Shape::tiles})
-            if (piece == to_string(shape)) shapes.push_back(shape);
-        if (shapes.size() == before)
-            throw Failure(Exit::usage,
-                          fmt::format("--shape: '{}' is not one of columns, rows, tiles", piece));
-    }
-    return shapes;
-}
+const std::vector<Shape> shapes{Shape::columns, Shape::rows, Shape::tiles};
 
 std::vector<SeamKind> seams_of(const std::string& text) {
     constexpr int default_halo = 2;
@@ -55,21 +44,12 @@ std::vector<SeamKind> seams_of(const std::string& text) {
     return kinds;
 }
 
-std::vector<std::string> schedules_of(const std::string& text) {
-    std::vector<std::string> schedules = split_list("--schedule", text);
-    for (const std::string& piece : schedules)
-        if (piece != "static" && piece != "dynamic")
-            throw Failure(Exit::usage,
-                          fmt::format("--schedule: '{}' is not one of static, dynamic", piece));
-    return schedules;
-}
-
 Exit run(const CLI::App& app, const SeamsOptions& options) {
     SeamsRequest request;
     request.arguments = povray_arguments(app);
-    request.schedules = each_once(schedules_of(options.schedule));
+    request.schedules = each_once(split_names("--schedule", options.schedule, schedules));
     request.ranks = each_once(split_numbers("--ranks", options.ranks));
-    request.shapes = each_once(shapes_of(options.shape));
+    request.shapes = each_once(split_names("--shape", options.shape, shapes));
     request.seams = each_once(seams_of(options.seams));
     request.sections = each_once(split_numbers("--sections", options.sections));
     request.renders = options.renders;
@@ -99,12 +79,12 @@ Command add_seams_command(CLI::App& program) {
                     "until a first case has been rendered")
         ->type_name("DIR")
         ->required();
-    const auto list = [&](const char* name, std::string& value, const char* text) {
+    const auto list = [&](const char* name, std::string& value, const std::string& text) {
         app->add_option(name, value, text)->type_name("LIST")->capture_default_str();
     };
     list("--ranks", options->ranks, "numbers of MPI ranks");
-    list("--schedule", options->schedule, "static, dynamic");
-    list("--shape", options->shape, "columns, rows, tiles");
+    list("--schedule", options->schedule, names_of(schedules));
+    list("--shape", options->shape, names_of(shapes));
     list("--seams", options->seams, "aligned, halo:N, plain");
     list("--sections", options->sections, "numbers of sections; those that cannot be are left out");
     app->add_option("--renders", options->renders,

@@ -238,7 +238,10 @@ TEST_F(RenderPrograms, UsageErrors) {
     EXPECT_THAT(output_, HasSubstr("--nonsense"));
     EXPECT_EQ(run({"seams", "scene.pov", "--out", "out", "--ranks", "1,x"}), 2);
     EXPECT_EQ(run({"seams", "scene.pov", "--out", "out", "--seams", "halo:0"}), 2);
-    EXPECT_EQ(run({"seams", "scene.pov", "--out", "out", "--schedule", "cost"}), 2);
+    EXPECT_EQ(run({"seams", "scene.pov", "--out", "out", "--schedule", "sometimes"}), 2);
+    EXPECT_THAT(output_, HasSubstr("'sometimes' is not one of static, dynamic, cost"));
+    EXPECT_EQ(run({"seams", "none.pov", "--out", "out", "--schedule", "static,dynamic,cost"}), 3)
+        << "all of them are known";
     EXPECT_EQ(run({"seams", scene("effects/none.pov"), "+W64", "+H48", "-A", "--out", "out",
                    "--ranks", "1", "--sections", "5000", "--seams", "aligned"}),
               2)

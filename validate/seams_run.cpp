@@ -91,15 +91,15 @@ class SeamsRun {
 
     std::vector<SeamsCase> planned() const {
         std::vector<SeamsCase> cases;
-        for (const std::string& schedule : request_.schedules)
+        for (const Policy schedule : request_.schedules)
             for (const int ranks : request_.ranks)
                 for (const Shape shape : request_.shapes)
                     for (const SeamKind& kind : request_.seams)
                         for (const int sections : request_.sections) {
                             SeamsCase one;
-                            one.name = fmt::format("{}.np{}.{}.{}.g{}", schedule, ranks,
+                            one.name = fmt::format("{}.np{}.{}.{}.g{}", to_string(schedule), ranks,
                                                    to_string(shape), kind.name(), sections);
-                            one.schedule = schedule;
+                            one.schedule = to_string(schedule);
                             one.ranks = ranks;
                             one.shape = shape;
                             one.seams = kind.seams;

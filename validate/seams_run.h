@@ -2,6 +2,7 @@
 #pragma once
 
 #include "failure.h"
+#include "schedule.h"
 #include "seams_report.h"
 #include "section.h"
 
@@ -22,7 +23,7 @@ struct SeamKind {
 struct SeamsRequest {
     std::vector<std::string> arguments;  // scene and POV-Ray's own
     std::filesystem::path folder;
-    std::vector<std::string> schedules{"dynamic"};
+    std::vector<Policy> schedules{Policy::dynamic};
     std::vector<int> ranks{1, 2};
     std::vector<Shape> shapes{Shape::columns};
     std::vector<SeamKind> seams;

@@ -27,11 +27,7 @@ SpeedupChoice choice_of(const SpeedupOptions& options) {
     SpeedupChoice choice;
     choice.ranks = each_once(split_numbers("--ranks", options.ranks));
     std::sort(choice.ranks.begin(), choice.ranks.end());
-    choice.schedules = each_once(split_list("--schedule", options.schedule));
-    for (const std::string& schedule : choice.schedules)
-        if (schedule != "static" && schedule != "dynamic")
-            throw Failure(Exit::usage,
-                          fmt::format("--schedule: '{}' is not one of static, dynamic", schedule));
+    choice.schedules = each_once(split_names("--schedule", options.schedule, schedules));
     choice.dedicated = options.dedicated;
     return choice;
 }
@@ -77,7 +73,7 @@ Command add_speedup_command(CLI::App& program) {
     app->add_option("--repeat", options->repeat, "how often each is run")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    app->add_option("--schedule", options->schedule, "of mpipov: static, dynamic")
+    app->add_option("--schedule", options->schedule, "of mpipov: " + names_of(schedules))
         ->type_name("LIST")
         ->capture_default_str();
     app->add_flag("--dedicated", options->dedicated,

@@ -58,7 +58,8 @@ std::vector<SpeedupVariant> speedup_variants(const SpeedupChoice& choice) {
     std::vector<SpeedupVariant> variants{{Kind::serial, 1, {}, false}};
     for (const int n : choice.ranks) variants.push_back({Kind::threads, n, {}, false});
     for (const int n : choice.ranks) variants.push_back({Kind::bands, n, {}, false});
-    for (const std::string& schedule : choice.schedules) {
+    for (const Policy policy : choice.schedules) {
+        const std::string schedule(to_string(policy));
         for (const int n : choice.ranks) variants.push_back({Kind::mpipov, n, schedule, false});
         if (!choice.dedicated) continue;
         for (const int n : choice.ranks)

@@ -1,6 +1,7 @@
 // What is measured against what: the ways to render one scene with n processors. Pure.
 #pragma once
 
+#include "schedule.h"
 #include "section.h"
 
 #include <filesystem>
@@ -26,7 +27,7 @@ struct SpeedupVariant {
 
 struct SpeedupChoice {
     std::vector<int> ranks;  // in the order of the columns
-    std::vector<std::string> schedules;
+    std::vector<Policy> schedules;
     bool dedicated = false;  // measures mpipov both ways where there is more than one rank
 };
 
