@@ -34,6 +34,7 @@ GridRequest grid_of(const SimulateCase& what, int sections) {
 
 std::vector<VirtualRank> ranks_of(const SimulateCase& what, int count, int in_flight) {
     std::vector<VirtualRank> ranks;
+    ranks.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i)
         ranks.push_back({i == 0 && what.dedicated ? 0 : what.slots, in_flight,
                          what.speeds[static_cast<std::size_t>(i) % what.speeds.size()],

@@ -91,6 +91,7 @@ class Simulation {
 
 std::vector<int> lanes_of(const std::vector<VirtualRank>& ranks) {
     std::vector<int> lanes;
+    lanes.reserve(ranks.size());
     for (const VirtualRank& rank : ranks) lanes.push_back(rank.slots);
     return lanes;
 }
