@@ -163,6 +163,21 @@ TEST_F(CompareProgram, SsimOfASmallImageHasAReason) {
     EXPECT_FALSE(fs::exists(path("map.png")));
 }
 
+TEST_F(CompareProgram, TheSignOfZeroIsSeenInAFile) {
+    TestImage a = a_, b = a_;
+    a.at(5, 6, 0) = 0.0;
+    b.at(5, 6, 0) = -0.0;
+    for (const auto& type : {TypeDesc::HALF, TypeDesc::FLOAT}) {
+        write_image(path("a.exr"), a, type);
+        write_image(path("b.exr"), b, type);
+        EXPECT_EQ(run({"a.exr", "b.exr", "--no-ssim", "--json", "out.json"}), 1) << output_;
+        EXPECT_THAT(output_, HasSubstr("1 samples are 0 in one and -0 in the other"));
+        EXPECT_EQ(read("out.json")["zero_signs"], 1);
+        EXPECT_EQ(read("out.json")["differing"], 1);
+        EXPECT_TRUE(read("out.json")["largest"].is_null());
+    }
+}
+
 TEST_F(CompareProgram, SsimOfFloatsWithNaN) {
     TestImage b = a_;
     b.at(100, 20, 0) = std::numeric_limits<double>::quiet_NaN();

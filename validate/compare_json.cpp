@@ -152,6 +152,7 @@ json to_json(const Comparison& comparison) {
             {"pixels", metrics.counts.pixels},
             {"differing", metrics.counts.differing},
             {"differing_box", rect_json(metrics.differing_box)},
+            {"zero_signs", metrics.zero_signs},
             {"mean_abs", both(metrics.all.mean_abs())},
             {"mean_signed", both(metrics.all.mean_signed())},
             {"rms", both(metrics.all.rms())},

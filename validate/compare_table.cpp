@@ -181,6 +181,9 @@ std::string to_table(const Comparison& comparison) {
                                *stored / format.full_scale());
             fmt::format_to(out, "\n");
         };
+        if (metrics.zero_signs > 0)
+            fmt::format_to(out, "sign of zero       {} samples are 0 in one and -0 in the other\n",
+                           metrics.zero_signs);
         row("mean error", metrics.all.mean_abs());
         row("mean, signed B - A", metrics.all.mean_signed());
         row("RMS error", metrics.all.rms());
@@ -194,7 +197,7 @@ std::string to_table(const Comparison& comparison) {
         const auto psnr = comparison.psnr();
         fmt::format_to(out, "PSNR               {}\n",
                        psnr ? fmt::format("{:.4f} dB (peak {})", *psnr, comparison.peak)
-                            : "none: no finite sample differs");
+                            : "none: the error of all finite samples is 0");
     }
     if (metrics.nonfinite.total() > 0) nonfinite_text(out, metrics.nonfinite, format);
     if (comparison.ssim) ssim_text(out, *comparison.ssim, format);

@@ -58,6 +58,7 @@ void MetricsBuilder::add_sample(int x, int y, int channel, double a, double b) {
     }
     metrics_.all.add(a, b);
     metrics_.channels[static_cast<std::size_t>(channel)].add(a, b);
+    if (a == b && !same_value(a, b)) ++metrics_.zero_signs;
     const auto error = std::abs(b - a);
     auto& largest = metrics_.largest;
     if (error > 0 && (!largest || error > std::abs(largest->b - largest->a)))
@@ -66,7 +67,9 @@ void MetricsBuilder::add_sample(int x, int y, int channel, double a, double b) {
 
 void MetricsBuilder::add_row(int y, std::span<const double> a, std::span<const double> b) {
     metrics_.counts.pixels += shape_.width;
-    const auto finite_and_equal = [](double p, double q) { return p == q && std::isfinite(p); };
+    const auto finite_and_equal = [](double p, double q) {
+        return same_value(p, q) && std::isfinite(p);
+    };
     if (std::equal(a.begin(), a.end(), b.begin(), finite_and_equal)) {
         metrics_.all.add_equal(static_cast<long long>(a.size()));
         for (ErrorSums& channel : metrics_.channels) channel.add_equal(shape_.width);

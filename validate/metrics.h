@@ -3,7 +3,9 @@
 //
 // Formulas: mean = sum |error| / samples, RMS = sqrt(sum error^2 / samples), PSNR = 20 log10(peak /
 // RMS), samples = pixels x channels: the definitions of OpenImageIO's idiff.
-// Two samples are equal where their values are, or where both are NaN. A sample that is not finite
+// Two samples are the same where their bits are, or where both are NaN, of whatever bits. So 0 and
+// -0 of a float image differ, by an error of 0: what is called identical is so bit for bit, as in
+// run.json's pixel_sha1. A sample that is not finite
 // in A or in B has no error: it is counted and named, and left out of every mean and maximum.
 // Rows are added in order, one sample after the other with compensated (Neumaier) sums, so that a
 // result depends neither on how the rows came in bands nor, below 2^106, on rounding.
@@ -24,7 +26,7 @@ struct ImageShape {
 };
 
 inline bool same_value(double a, double b) {
-    return a == b || (std::isnan(a) && std::isnan(b));
+    return (a == b && std::signbit(a) == std::signbit(b)) || (std::isnan(a) && std::isnan(b));
 }
 
 // Whether any of the channels differs.
@@ -106,6 +108,7 @@ struct Metrics {
     ErrorSums all;
     std::vector<ErrorSums> channels;
     std::optional<LargestError> largest;  // none where no finite sample differs
+    long long zero_signs = 0;             // samples that are 0 in one image and -0 in the other
     NonFinite nonfinite;
 
     bool identical() const { return counts.differing == 0; }

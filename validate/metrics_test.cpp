@@ -49,6 +49,23 @@ TEST(ErrorSums, NothingIsUndefined) {
     EXPECT_FALSE(none.max());
 }
 
+TEST(Metrics, TheSignOfZeroIsADifferenceWithoutAnError) {
+    TestImage a = textured(20, 10), b = a;
+    a.at(3, 4, 1) = 0.0;
+    b.at(3, 4, 1) = -0.0;
+    const Metrics metrics = measure(a, b);
+    EXPECT_FALSE(metrics.identical());
+    EXPECT_EQ(metrics.counts.differing, 1);
+    EXPECT_EQ(metrics.differing_box, (Rect{3, 4, 4, 5}));
+    EXPECT_EQ(metrics.zero_signs, 1);
+    EXPECT_EQ(metrics.all.samples(), 600);
+    EXPECT_EQ(metrics.all.max(), 0);
+    EXPECT_FALSE(metrics.largest);
+    EXPECT_FALSE(metrics.psnr(255));
+    EXPECT_EQ(measure(b, b).zero_signs, 0);
+    EXPECT_TRUE(measure(b, b).identical());
+}
+
 TEST(Metrics, OfIdenticalImages) {
     const TestImage a = textured(20, 10);
     const Metrics metrics = measure(a, a);
