@@ -43,11 +43,12 @@ Coordinator::Coordinator(CoordinatorSetup setup, Transport& transport, Canvas& c
       canvas_(canvas),
       journal_(journal),
       clock_(std::move(clock)),
-      schedule_(setup_.policy, ids_of(setup_.partition), lanes_of(setup_.ranks)),
+      schedule_(setup_.policy, ids_of(setup_.partition), lanes_of(setup_.ranks), setup_.costs),
       overlap_(setup_.partition, canvas.layout()),
       seams_(overlap_.seams().size()),
       under_way_(setup_.ranks.size(), 0),
-      busy_since_(setup_.ranks.size(), 0) {
+      busy_since_(setup_.ranks.size(), 0),
+      pace_(setup_.ranks.size()) {
     for (const Section& section : setup_.partition.sections) {
         Progress progress;
         progress.record.section = section;
@@ -106,33 +107,47 @@ void Coordinator::assign_to_all() {
     }
 }
 
+bool Coordinator::has_room(int worker) const {
+    const auto rank = static_cast<std::size_t>(worker);
+    return under_way_[rank] < setup_.in_flight.at(rank);
+}
+
 void Coordinator::assign_to(int worker) {
-    int& under_way = under_way_[static_cast<std::size_t>(worker)];
-    if (under_way >= setup_.in_flight.at(static_cast<std::size_t>(worker))) return;
-    const std::optional<int> next = schedule_.next(worker);
-    if (!next) return;
-    Progress& progress = sections_[static_cast<std::size_t>(*next)];
-    SectionRecord& record = progress.record;
-    record.rank = worker;
-    record.host = setup_.ranks[static_cast<std::size_t>(worker)].host;
-    record.start = clock_();
-    record.attempts = schedule_.attempts(*next);
-    progress.under_way = true;
-    set_fraction(progress, 0);
-    // Whatever came of an earlier attempt does not count.
-    progress.next_row = record.section.render.y0;
-    progress.disagreement.differing = 0;
-    progress.disagreement.max_difference = 0;
-    if (under_way++ == 0) busy_since_[static_cast<std::size_t>(worker)] = record.start;
+    if (!has_room(worker)) return;
+    if (const std::optional<int> next = schedule_.next(worker)) begin(*next, worker);
+}
+
+void Coordinator::begin(int id, int worker) {
+    Progress& progress = sections_[static_cast<std::size_t>(id)];
+    const Section& section = progress.record.section;
+    const Run run{worker, schedule_.attempts(id), clock_(), 0};
+    if (progress.runs.empty()) {
+        set_fraction(progress, 0);
+        // Whatever came of an earlier attempt does not count.
+        progress.next_row = section.render.y0;
+        progress.disagreement.differing = 0;
+        progress.disagreement.max_difference = 0;
+        if (run.attempt > 1) ++totals_.retries;
+    } else {
+        ++totals_.copies;
+    }
+    progress.runs.push_back(run);
+    const auto rank = static_cast<std::size_t>(worker);
+    if (under_way_[rank]++ == 0) busy_since_[rank] = run.start;
     ++totals_.launches;
-    if (record.attempts > 1) ++totals_.retries;
     transport_.send({MessageKind::assign,
                      worker,
-                     {{"section", *next},
-                      {"attempt", record.attempts},
-                      {"keep", rect_to_json(record.section.keep)},
-                      {"render", rect_to_json(record.section.render)}},
+                     {{"section", id},
+                      {"attempt", run.attempt},
+                      {"keep", rect_to_json(section.keep)},
+                      {"render", rect_to_json(section.render)}},
                      {}});
+}
+
+void Coordinator::end_launch(int worker, double cpu_seconds) {
+    const auto rank = static_cast<std::size_t>(worker);
+    totals_.cpu_seconds += cpu_seconds;
+    if (--under_way_[rank] == 0) setup_.ranks[rank].busy_seconds += clock_() - busy_since_[rank];
 }
 
 void Coordinator::handle(const Message& message) {
@@ -149,22 +164,25 @@ void Coordinator::handle(const Message& message) {
         case MessageKind::failed:
             take_failed(message);
             break;
+        case MessageKind::cancelled:
+            take_end_of_loser(message);
+            break;
         default:
             throw std::runtime_error("the coordinator got a message that is not for it");
     }
     furthest_ = fraction();
 }
 
-Coordinator::Progress& Coordinator::section_of(const Message& message) {
-    const int id = message.head.at("section");
+Coordinator::Source Coordinator::source_of(const Message& message) {
+    const int id = message.head.at("section"), attempt = message.head.at("attempt");
     if (id < 0 || id >= static_cast<int>(sections_.size()))
         throw std::runtime_error(fmt::format("rank {} sent an unknown section", message.peer));
     Progress& progress = sections_[static_cast<std::size_t>(id)];
-    if (!progress.under_way || progress.record.rank != message.peer ||
-        progress.record.attempts != message.head.at("attempt").get<int>())
-        throw std::runtime_error(
-            fmt::format("rank {} sent section {} that it was not given", message.peer, id));
-    return progress;
+    for (Run& run : progress.runs)
+        if (run.rank == message.peer && run.attempt == attempt) return {&progress, &run};
+    if (losers_.count({id, attempt, message.peer}) > 0) return {&progress, nullptr};
+    throw std::runtime_error(
+        fmt::format("rank {} sent section {} that it was not given", message.peer, id));
 }
 
 void Coordinator::set_fraction(Progress& progress, double fraction) {
@@ -175,11 +193,17 @@ void Coordinator::set_fraction(Progress& progress, double fraction) {
 }
 
 void Coordinator::take_progress(const Message& message) {
-    set_fraction(section_of(message), message.head.at("fraction"));
+    const Source source = source_of(message);
+    if (source.run == nullptr) return;
+    source.run->fraction = message.head.at("fraction");
+    set_fraction(*source.progress, std::max(source.progress->fraction, source.run->fraction));
 }
 
 void Coordinator::take_band(const Message& message) {
-    Progress& progress = section_of(message);
+    const Source source = source_of(message);
+    if (source.run == nullptr) return;
+    Progress& progress = *source.progress;
+    keep_only(progress, *source.run);
     const Section& section = progress.record.section;
     const Rect rect = rect_from_json(message.head.at("rect"));
     if (rect.empty() || intersect(rect, section.render) != rect)
@@ -207,25 +231,29 @@ void Coordinator::take_band(const Message& message) {
 }
 
 void Coordinator::take_done(const Message& message) {
-    Progress& progress = section_of(message);
+    const Source source = source_of(message);
+    if (source.run == nullptr) return take_end_of_loser(message);
+    Progress& progress = *source.progress;
     SectionRecord& record = progress.record;
     if (progress.next_row != record.section.render.y1)
         throw std::runtime_error(fmt::format("rank {} ended section {} without all of its rows",
                                              message.peer, record.section.id));
+    record.rank = message.peer;
+    record.host = setup_.ranks[static_cast<std::size_t>(message.peer)].host;
+    record.attempts = source.run->attempt;
+    record.start = source.run->start;
     record.end = clock_();
     record.wall_seconds = message.head.at("wall_seconds");
     record.cpu_seconds = message.head.at("cpu_seconds");
-    totals_.cpu_seconds += record.cpu_seconds;
     for (const std::string& warning : message.head.at("warnings").get<std::vector<std::string>>())
         if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end())
             warnings_.push_back(warning);
-    progress.under_way = false;
+    progress.runs.clear();
     set_fraction(progress, 1);
     ++sections_done_;
-    const auto worker = static_cast<std::size_t>(message.peer);
-    RankRecord& rank = setup_.ranks[worker];
-    ++rank.sections;
-    if (--under_way_[worker] == 0) rank.busy_seconds += record.end - busy_since_[worker];
+    ++setup_.ranks[static_cast<std::size_t>(message.peer)].sections;
+    end_launch(message.peer, record.cpu_seconds);
+    learn(record);
     if (progress.seam >= 0) {
         schedule_.finished(record.section.id);
         check_repair(progress);
@@ -239,18 +267,19 @@ void Coordinator::take_done(const Message& message) {
 }
 
 void Coordinator::take_failed(const Message& message) {
-    Progress& progress = section_of(message);
+    const Source source = source_of(message);
+    if (source.run == nullptr) return take_end_of_loser(message);
+    Progress& progress = *source.progress;
     const int id = progress.record.section.id;
-    const auto worker = static_cast<std::size_t>(message.peer);
-    totals_.cpu_seconds += message.head.at("cpu_seconds").get<double>();
-    progress.under_way = false;
-    if (--under_way_[worker] == 0)
-        setup_.ranks[worker].busy_seconds += clock_() - busy_since_[worker];
-    if (schedule_.attempts(id) > setup_.retries)
-        throw Failure(Exit::scene, fmt::format("section {} failed {} times, last on {}: {}", id,
-                                               schedule_.attempts(id), setup_.ranks[worker].host,
-                                               message.head.at("why").get<std::string>()));
+    std::erase_if(progress.runs, [&](const Run& run) { return &run == source.run; });
+    end_launch(message.peer, message.head.at("cpu_seconds"));
     schedule_.failed(id, message.peer);
+    if (schedule_.failures(id) > setup_.retries)
+        throw Failure(
+            Exit::scene,
+            fmt::format("section {} failed {} times, last on {}: {}", id, schedule_.failures(id),
+                        setup_.ranks[static_cast<std::size_t>(message.peer)].host,
+                        message.head.at("why").get<std::string>()));
     assign_to_all();
 }
 
@@ -268,6 +297,7 @@ void Coordinator::fill(RunRecord& record) const {
     record.ranks = setup_.ranks;
     record.totals.launches += totals_.launches;
     record.totals.retries += totals_.retries;
+    record.totals.copies += totals_.copies;
     record.totals.cpu_seconds += totals_.cpu_seconds;
     for (const std::string& warning : warnings_)
         if (std::find(record.warnings.begin(), record.warnings.end(), warning) ==

@@ -11,9 +11,11 @@
 #include "stitch.h"
 #include "transport.h"
 
+#include <array>
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,7 +30,9 @@ struct CoordinatorSetup {
     std::vector<int> in_flight;     // launches under way at most, by rank
     int retries = 2;
     std::optional<double> timeout_seconds;
-    int widest_halo = 32;  // a seam whose overlap still disagrees then is left as it is
+    std::vector<double> costs;        // expected, of each section, in any unit; empty: by area
+    double copies_every_seconds = 1;  // how often idle ranks look for a section to copy
+    int widest_halo = 32;             // a seam whose overlap still disagrees then is left as it is
 };
 
 class Coordinator {
@@ -44,6 +48,8 @@ class Coordinator {
     // Throws Failure where a section failed once too often, std::runtime_error where a message is
     // not what the protocol allows.
     void handle(const Message& message);
+    // To be called now and then: lets idle ranks copy the section that would end last.
+    void tick();
     bool finished() const { return schedule_.all_finished(); }
     // Once finished: puts the seams that were rendered again into the canvas, in an order that does
     // not depend on which rank was first.
@@ -60,18 +66,39 @@ class Coordinator {
     void fill(RunRecord& record) const;
 
   private:
+    // A launch that renders a section; there are two where one is a copy.
+    struct Run {
+        int rank = -1, attempt = 0;
+        double start = 0;     // seconds since the run began
+        double fraction = 0;  // of the section, that POV-Ray has told of
+    };
     struct Progress {
         SectionRecord record;
-        int seam = -1;  // >= 0: this section renders that seam again
-        bool under_way = false;
+        int seam = -1;          // >= 0: this section renders that seam again
+        std::vector<Run> runs;  // under way; one alone has sent bands
         double fraction = 0;
         int next_row = 0;                 // where the next band of this attempt begins
         SeamRecord disagreement;          // of a seam rendered again with its surroundings
         std::vector<std::byte> repaired;  // its pixels
     };
 
+    // Where the message comes from; `run` is null where that launch was told to end.
+    struct Source {
+        Progress* progress = nullptr;
+        Run* run = nullptr;
+    };
+
+    bool has_room(int worker) const;
     void assign_to(int worker);
     void assign_to_all();
+    void begin(int section, int worker);
+    void end_launch(int worker, double cpu_seconds);
+    Outlook outlook(int section, int worker) const;
+    double cost_of(int section) const;
+    std::optional<double> expected_seconds(int section, int worker) const;
+    void learn(const SectionRecord& record);
+    void keep_only(Progress& progress, const Run& winner);
+    void take_end_of_loser(const Message& message);
     void take_progress(const Message& message);
     void take_band(const Message& message);
     void take_repair_band(Progress& progress, const Rect& rect, std::span<const std::byte> pixels);
@@ -80,7 +107,7 @@ class Coordinator {
     void check_seam(int seam);
     void check_repair(Progress& repair);
     void repair(int seam, int halo);
-    Progress& section_of(const Message& message);
+    Source source_of(const Message& message);
     void set_fraction(Progress& progress, double fraction);
 
     CoordinatorSetup setup_;
@@ -92,8 +119,15 @@ class Coordinator {
     OverlapCheck overlap_;
     std::vector<Progress> sections_;  // by id
     std::vector<SeamRecord> seams_;
-    std::vector<int> under_way_;      // launches, by rank
-    std::vector<double> busy_since_;  // by rank
+    std::vector<int> under_way_;           // launches, by rank
+    std::vector<double> busy_since_;       // by rank
+    std::set<std::array<int, 3>> losers_;  // section, attempt, rank: launches told to end
+    // Wall seconds of finished launches and the costs of their sections, by rank.
+    struct Pace {
+        double seconds = 0, cost = 0;
+    };
+    std::vector<Pace> pace_;
+    double looked_for_copies_ = 0;  // when, seconds
     Totals totals_;
     std::vector<std::string> warnings_;
     int sections_done_ = 0;

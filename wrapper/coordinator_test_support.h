@@ -24,6 +24,8 @@ struct RigSetup {
     int in_flight = 1;
     int retries = 2;
     int widest_halo = 32;
+    bool copies = false;        // whether idle ranks copy the last sections
+    double clock_step = 0.001;  // seconds, each time that somebody looks
     FakeWorkerSetup worker = {};
     unsigned seed = 1;
     Journal* journal = nullptr;
@@ -39,7 +41,7 @@ class Rig {
                    setup.frame_height > 0 ? setup.frame_height : setup.grid.region.y1,
                    known_channels, Depth::uint8}),
           coordinator_(coordinator_setup(setup, canvas_), ranks_.at(0), canvas_, setup.journal,
-                       [this] { return now_ += 0.001; }) {
+                       [this, setup] { return now_ += setup.clock_step; }) {
         for (int rank = 0; rank < setup.workers; ++rank)
             workers_.emplace_back(ranks_.at(rank), setup.worker);
     }
@@ -57,12 +59,13 @@ class Rig {
     void step() {
         const auto rank = static_cast<int>(random_() % workers_.size());
         FakeWorker& worker = workers_[static_cast<std::size_t>(rank)];
+        coordinator_.tick();
         if (random_() % 2 == 0) return worker.step(random_);
         const auto message = ranks_.at(rank).try_receive();
         if (!message) return;
-        const bool is_for_worker = message->kind == MessageKind::job ||
-                                   message->kind == MessageKind::assign ||
-                                   message->kind == MessageKind::stop;
+        const bool is_for_worker =
+            message->kind == MessageKind::job || message->kind == MessageKind::assign ||
+            message->kind == MessageKind::cancel || message->kind == MessageKind::stop;
         if (is_for_worker) return worker.handle(*message);
         const double before = coordinator_.fraction();
         coordinator_.handle(*message);
@@ -92,6 +95,7 @@ class Rig {
         c.in_flight.assign(static_cast<std::size_t>(setup.workers), setup.in_flight);
         c.retries = setup.retries;
         c.widest_halo = setup.widest_halo;
+        c.copies_every_seconds = setup.copies ? 0 : 1e9;
         return c;
     }
 

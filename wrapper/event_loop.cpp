@@ -18,7 +18,8 @@ constexpr int shortest_sleep_ms = 1, longest_sleep_ms = 25;
 constexpr int longest_sleep_alone_ms = 100;
 
 bool is_for_worker(MessageKind kind) {
-    return kind == MessageKind::job || kind == MessageKind::assign || kind == MessageKind::stop;
+    return kind == MessageKind::job || kind == MessageKind::assign || kind == MessageKind::cancel ||
+           kind == MessageKind::stop;
 }
 
 void dispatch(const EventLoop& loop, const Message& message) {
@@ -48,6 +49,7 @@ void run_event_loop(const EventLoop& loop) {
             dispatch(loop, *message);
             busy = true;
         }
+        if (loop.coordinator != nullptr) loop.coordinator->tick();
         if (loop.every_step) loop.every_step();
         if (loop.coordinator != nullptr ? loop.coordinator->finished() : loop.worker.stopped())
             return;

@@ -75,10 +75,11 @@ class EventLoopTest : public FakePovrayTest {
         }
         send_stops(ranks.at(0));
         threads.clear();
-        EXPECT_EQ(ranks.waiting(), 0u);
-        EXPECT_TRUE(holds_known_picture(canvas, frame));
+        // A rank whose launch lost may have said that it is gone when nobody looked any more.
         RunRecord record;
         coordinator.fill(record);
+        if (record.totals.copies == 0) EXPECT_EQ(ranks.waiting(), 0u);
+        EXPECT_TRUE(holds_known_picture(canvas, frame));
         return record;
     }
 };
@@ -114,6 +115,15 @@ TEST_F(EventLoopTest, GoesOnAfterEveryKindOfFault) {
         EXPECT_EQ(record.totals.retries, 1) << fault;
         EXPECT_EQ(record.totals.launches, 5) << fault;
     }
+}
+
+TEST_F(EventLoopTest, ACopyEndsWhatWouldHang) {
+    const Environment what("FAKE_POVRAY", "hang"),
+        once("FAKE_POVRAY_ONCE", (elsewhere_.path() / "hang").string());
+    const RunRecord record = run(setup(2, 4));  // a hung launch would else hold it up for a minute
+    EXPECT_EQ(record.totals.copies, 1);
+    EXPECT_EQ(record.totals.launches, 5);
+    EXPECT_EQ(record.totals.retries, 0);
 }
 
 TEST_F(EventLoopTest, EndsWithPovraysErrorWhereASectionAlwaysFails) {

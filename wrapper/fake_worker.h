@@ -28,6 +28,10 @@ struct FakeWorkerSetup {
     std::function<std::string(int rank, const Assignment&)> fault = [](int, const Assignment&) {
         return std::string();
     };
+    // Whether it never says a word of it.
+    std::function<bool(int rank, const Assignment&)> stuck = [](int, const Assignment&) {
+        return false;
+    };
     int band_rows = 5;
 };
 
@@ -41,6 +45,14 @@ class FakeWorker {
             has_job_ = true;
         } else if (message.kind == MessageKind::stop) {
             stopped_ = true;
+        } else if (message.kind == MessageKind::cancel) {
+            const auto found = std::ranges::find_if(launches_, [&](const Launch& launch) {
+                return launch.assignment.section.id == message.head.at("section").get<int>() &&
+                       launch.assignment.attempt == message.head.at("attempt").get<int>();
+            });
+            if (found == launches_.end()) return;
+            send(*found, MessageKind::cancelled, {{"cpu_seconds", 0.5}});
+            launches_.erase(found);
         } else if (message.kind == MessageKind::assign) {
             if (!has_job_) throw std::logic_error("assigned a section before the job was sent");
             const Assignment assignment{
@@ -81,6 +93,7 @@ class FakeWorker {
     // True after its last message.
     bool advance(Launch& launch) {
         const Rect& render = launch.assignment.section.render;
+        if (setup_.stuck(transport_.rank(), launch.assignment)) return false;
         const std::string why = setup_.fault(transport_.rank(), launch.assignment);
         if (!launch.reported) {
             launch.reported = true;

@@ -17,6 +17,8 @@ enum class MessageKind : unsigned char {
     band,      // worker: some rows of a section's pixels, in the body
     done,      // worker: all bands of a section were sent; its times
     failed,    // worker: why a section did not work out
+    cancel,    // coordinator: another rank was first with this section
+    cancelled, // worker: its launch is gone; what it spent
     stop,      // coordinator: no more work
     refused,   // worker: this rank cannot render at all, or no more
     bye,       // worker: its last message

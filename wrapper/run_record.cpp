@@ -192,7 +192,8 @@ json to_json(const RunRecord& record) {
               {"cpu_seconds", record.totals.cpu_seconds},
               {"coordinator_cpu_seconds", record.totals.coordinator_cpu_seconds},
               {"launches", record.totals.launches},
-              {"retries", record.totals.retries}}},
+              {"retries", record.totals.retries},
+              {"copies", record.totals.copies}}},
             {"warnings", record.warnings}};
 }
 
@@ -220,7 +221,9 @@ RunRecord run_from_json(const json& j) {
         record.totals = {totals.at("wall_seconds").get<double>(),
                          totals.at("cpu_seconds").get<double>(),
                          totals.at("coordinator_cpu_seconds").get<double>(),
-                         totals.at("launches").get<int>(), totals.at("retries").get<int>()};
+                         totals.at("launches").get<int>(),
+                         totals.at("retries").get<int>(),
+                         totals.value("copies", 0)};
         record.warnings = j.at("warnings").get<std::vector<std::string>>();
         return record;
     } catch (const json::exception& error) {

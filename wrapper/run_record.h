@@ -77,6 +77,7 @@ struct Totals {
     double cpu_seconds = 0;              // of all POV-Ray launches, probes included
     double coordinator_cpu_seconds = 0;  // rank 0's own process: coordinating, stitching, encoding
     int launches = 0, retries = 0;
+    int copies = 0;  // launches of a section that was under way elsewhere
 };
 
 struct RunRecord {

@@ -82,8 +82,9 @@ std::optional<int> Schedule::next_copy(int worker,
     if (policy_ == Policy::static_ || lanes_.at(static_cast<std::size_t>(worker)) == 0) return {};
     std::optional<int> last;
     double longest = 0;
-    for (const auto& [section, entry] : entries_) {
-        if (entry.done || entry.under_way_on.size() != 1 || entry.under_way_on[0] == worker ||
+    for (const int section : under_way_) {
+        const Entry& entry = entries_.at(section);
+        if (entry.under_way_on.size() != 1 || entry.under_way_on[0] == worker ||
             contains(entry.failed_on, worker))
             continue;
         const Outlook seconds = outlook(section);
@@ -99,6 +100,7 @@ int Schedule::hand_out(int section, int worker) {
     Entry& entry = entries_.at(section);
     ++entry.attempts;
     entry.under_way_on.push_back(worker);
+    under_way_.insert(section);
     return section;
 }
 
@@ -117,15 +119,24 @@ void Schedule::finished(int section) {
     Entry& entry = entries_.at(section);
     if (entry.done) return;
     entry.done = true;
+    under_way_.erase(section);
     --unfinished_;
 }
 
 void Schedule::failed(int section, int worker) {
-    Entry& entry = entries_.at(section);
-    entry.failed_on.push_back(worker);
-    entry.under_way_on.erase(
-        std::find(entry.under_way_on.begin(), entry.under_way_on.end(), worker));
-    if (entry.under_way_on.empty()) shared_.push_front(section);
+    entries_.at(section).failed_on.push_back(worker);
+    take_back(section, worker);
+    if (under_way_.count(section) == 0) shared_.push_front(section);
+}
+
+void Schedule::stopped(int section, int worker) {
+    take_back(section, worker);
+}
+
+void Schedule::take_back(int section, int worker) {
+    std::vector<int>& on = entries_.at(section).under_way_on;
+    on.erase(std::find(on.begin(), on.end(), worker));
+    if (on.empty()) under_way_.erase(section);
 }
 
 void Schedule::add(int section) {
@@ -137,6 +148,10 @@ void Schedule::add(int section) {
 
 int Schedule::attempts(int section) const {
     return entries_.at(section).attempts;
+}
+
+int Schedule::failures(int section) const {
+    return static_cast<int>(entries_.at(section).failed_on.size());
 }
 
 }  // namespace mpipov

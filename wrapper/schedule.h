@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -48,6 +49,9 @@ class Schedule {
     // next where there is one that has not failed it yet. The section must be under way there.
     void failed(int section, int worker);
 
+    // A copy of the section was ended because the other one counts.
+    void stopped(int section, int worker);
+
     // One more section (a seam that is rendered again); any worker may take it.
     void add(int section);
 
@@ -55,6 +59,7 @@ class Schedule {
     void expect(int section, double cost);
 
     int attempts(int section) const;  // how often it was handed out, copies too
+    int failures(int section) const;
     bool all_finished() const { return unfinished_ == 0; }
     int unfinished() const { return unfinished_; }
 
@@ -68,6 +73,7 @@ class Schedule {
 
     bool may_take(int section, int worker) const;
     int hand_out(int section, int worker);
+    void take_back(int section, int worker);
     void sort_by_cost();
 
     Policy policy_;
@@ -75,6 +81,7 @@ class Schedule {
     std::deque<int> shared_;              // whoever is free takes the front
     std::vector<std::deque<int>> owned_;  // static: each worker's own
     std::map<int, Entry> entries_;
+    std::set<int> under_way_;
     int unfinished_ = 0;
 };
 

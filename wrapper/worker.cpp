@@ -58,6 +58,9 @@ void Worker::handle(const Message& message) {
         case MessageKind::assign:
             start(message);
             break;
+        case MessageKind::cancel:
+            cancel(message);
+            break;
         case MessageKind::stop:
             stop();
             break;
@@ -73,7 +76,7 @@ void Worker::start(const Message& message) {
     try {
         PreparedLaunch prepared = launch(section, attempt);
         launches_.push_back({section, attempt, std::move(prepared.folder),
-                             std::move(prepared.child), std::nullopt, 0});
+                             std::move(prepared.child), std::nullopt, 0, false});
     } catch (const std::exception& error) {
         transport_.send({MessageKind::failed,
                          coordinator,
@@ -120,6 +123,7 @@ bool Worker::step() {
 
 Worker::State Worker::step(Launch& launch) {
     try {
+        if (launch.cancelled) return end_cancelled(launch);
         if (launch.reader) return send_bands(launch);
         if (launch.child.poll()) return begin_reading(launch);
         send_progress(launch);
@@ -128,6 +132,24 @@ Worker::State Worker::step(Launch& launch) {
         send_failure(launch, error.what());
         return State::over;
     }
+}
+
+// Nothing where it has ended meanwhile: the coordinator has heard of that.
+void Worker::cancel(const Message& message) {
+    for (Launch& launch : launches_)
+        if (launch.section.id == message.head.at("section").get<int>() &&
+            launch.attempt == message.head.at("attempt").get<int>()) {
+            launch.cancelled = true;
+            launch.child.kill_now();
+        }
+}
+
+Worker::State Worker::end_cancelled(Launch& launch) {
+    if (!launch.child.poll()) return State::idle;
+    nlohmann::json head = head_of(launch);
+    head["cpu_seconds"] = launch.child.result().cpu_seconds;
+    transport_.send({MessageKind::cancelled, coordinator, std::move(head), {}});
+    return State::over;
 }
 
 Worker::State Worker::begin_reading(Launch& launch) {

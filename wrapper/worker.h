@@ -49,12 +49,15 @@ class Worker {
         ChildProcess child;
         std::optional<SectionReader> reader;  // once POV-Ray has ended
         double last_fraction = 0;
+        bool cancelled = false;  // another rank was first
     };
     enum class State { busy, idle, over };
 
     void start(const Message& message);
     PreparedLaunch launch(const Section& section, int attempt);
     State step(Launch& launch);
+    void cancel(const Message& message);
+    State end_cancelled(Launch& launch);
     State begin_reading(Launch& launch);
     State send_bands(Launch& launch);
     void send_progress(Launch& launch);

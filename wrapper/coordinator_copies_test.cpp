@@ -1,0 +1,83 @@
+// Idle ranks copy the section that would end last.
+#include "coordinator_test_support.h"
+
+#include <gtest/gtest.h>
+
+namespace mpipov {
+namespace {
+
+RigSetup setup_with(unsigned seed) {
+    RigSetup setup;
+    setup.grid = {{0, 0, 120, 90}, Shape::tiles, Seams::plain, 12, 0, 32};
+    setup.workers = 3;
+    setup.copies = true;
+    setup.clock_step = 0.05;
+    setup.seed = seed;
+    return setup;
+}
+
+TEST(CoordinatorCopies, ARankThatIsStuckHoldsNothingUp) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        RigSetup setup = setup_with(seed);
+        setup.worker.stuck = [](int rank, const Assignment& a) {
+            return rank == 2 && a.section.id > 2;
+        };
+        Rig rig(setup);
+        rig.run();
+        EXPECT_TRUE(holds_known_picture(rig.canvas(), setup.grid.region));
+        const RunRecord record = rig.record();
+        EXPECT_EQ(record.totals.copies, 1);
+        EXPECT_EQ(record.totals.launches, 13);
+        EXPECT_EQ(record.totals.retries, 0);
+        for (const SectionRecord& section : record.sections) {
+            EXPECT_FALSE(section.rank == 2 && section.section.id > 2);
+            EXPECT_GE(section.end, section.start);
+        }
+    }
+}
+
+// Both launches of a section send bands and ends in any order; the picture is whole whoever wins.
+TEST(CoordinatorCopies, TheFirstResultCountsInAnyOrderOfEvents) {
+    int copies = 0;
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        RigSetup setup = setup_with(seed);
+        setup.clock_step = 1;  // so slow that copies always seem to pay
+        Rig rig(setup);
+        rig.run();
+        EXPECT_TRUE(holds_known_picture(rig.canvas(), setup.grid.region));
+        copies += rig.record().totals.copies;
+        EXPECT_EQ(rig.record().totals.launches, 12 + rig.record().totals.copies);
+    }
+    EXPECT_GT(copies, 20) << "nothing was tested";
+}
+
+TEST(CoordinatorCopies, AFailureOfEitherIsNoFailureOfTheSection) {
+    int copies = 0;
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        RigSetup setup = setup_with(seed);
+        setup.clock_step = 1;
+        setup.retries = 1;
+        setup.worker.fault = [](int, const Assignment& a) {
+            return std::string(a.attempt == 1 && a.section.id % 3 == 0 ? "broken" : "");
+        };
+        Rig rig(setup);
+        rig.run();
+        EXPECT_TRUE(holds_known_picture(rig.canvas(), setup.grid.region));
+        copies += rig.record().totals.copies;
+    }
+    EXPECT_GT(copies, 20) << "nothing was tested";
+}
+
+TEST(CoordinatorCopies, StaticAndHonestRanksMakeNone) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        RigSetup setup = setup_with(seed);
+        setup.policy = Policy::static_;
+        setup.clock_step = 1;
+        Rig rig(setup);
+        rig.run();
+        EXPECT_EQ(rig.record().totals.copies, 0);
+    }
+}
+
+}  // namespace
+}  // namespace mpipov
