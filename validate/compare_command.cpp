@@ -24,14 +24,6 @@ struct CompareOptions {
     bool ssim = false, no_ssim = false;
 };
 
-RunRecord read_run(const std::string& file) {
-    try {
-        return read_run_record(file);
-    } catch (const std::exception& error) {
-        throw Failure(Exit::file, error.what());
-    }
-}
-
 // Asked for (--ssim or --map) it has to work; else its absence is told with its reason.
 std::optional<Ssim> ssim_of(const Comparison& comparison, const CompareOptions& options) {
     if (options.no_ssim) return {};
@@ -55,7 +47,7 @@ void require_other_files(const CompareOptions& options) {
 Exit run_compare(const CompareOptions& options) {
     require_other_files(options);
     CompareRequest request{options.a, options.b, {}, options.peak};
-    if (!options.run.empty()) request.run = read_run(options.run);
+    if (!options.run.empty()) request.run = read_record(options.run);
     Comparison comparison = compare_images(request);
     if (request.run) require_record_of(*request.run, options.run, options.a, options.b);
     comparison.ssim = ssim_of(comparison, options);

@@ -2,6 +2,7 @@
 #include "compare_command.h"
 #include "failure.h"
 #include "interrupt.h"
+#include "json_input.h"
 #include "noise_command.h"
 #include "report_command.h"
 #include "seams_command.h"
@@ -64,10 +65,10 @@ int main(int argc, char** argv) {
         mpipov::block_interrupts();
         return printed(run(argc, argv));
     } catch (const mpipov::Failure& failure) {
-        fmt::print(stderr, "mpipov-validate: {}\n", failure.what());
+        fmt::print(stderr, "mpipov-validate: {}\n", mpipov::plain_words(failure.what()));
         return finish(failure.code());
     } catch (const std::exception& error) {
-        fmt::print(stderr, "mpipov-validate: {}\n", error.what());
+        fmt::print(stderr, "mpipov-validate: {}\n", mpipov::plain_words(error.what()));
         return finish(Exit::file);
     }
 }

@@ -2,6 +2,7 @@
 
 #include "failure.h"
 #include "interrupt.h"
+#include "json_input.h"
 
 #include <fmt/format.h>
 
@@ -115,7 +116,7 @@ json read_entry(const fs::path& file, const fs::path& root, std::string_view kin
             }
         }
     } catch (const std::exception& error) {
-        problems.emplace_back(error.what());
+        problems.emplace_back(plain_words(error.what()));
         data = nullptr;
     }
     return {{"kind", kind},

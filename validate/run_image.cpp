@@ -3,6 +3,7 @@
 #include "failure.h"
 #include "image_file.h"
 #include "image_source.h"
+#include "json_input.h"
 
 #include <OpenImageIO/hash.h>
 #include <fmt/format.h>
@@ -13,6 +14,14 @@
 namespace mpipov {
 
 namespace fs = std::filesystem;
+
+RunRecord read_record(const fs::path& file) {
+    try {
+        return read_run_record(file);
+    } catch (const std::exception& error) {
+        throw Failure(Exit::file, plain_words(error.what()));
+    }
+}
 
 std::string pixel_sha1(const fs::path& image) {
     try {

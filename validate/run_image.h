@@ -1,4 +1,4 @@
-// Whether a run's record is the record of an image.
+// A run's record, and whether it is the record of an image.
 #pragma once
 
 #include "run_record.h"
@@ -7,6 +7,9 @@
 #include <string>
 
 namespace mpipov {
+
+// Throws Failure(Exit::file), which names the file.
+RunRecord read_record(const std::filesystem::path& file);
 
 // The SHA-1 of all pixels as run.json has it: rows from the top, channels interleaved,
 // little-endian and as they are stored. Throws Failure(Exit::file).

@@ -226,8 +226,24 @@ TEST_F(RenderPrograms, SerialRendersServeAgain) {
         std::ofstream(path(file)) << before;
     }
     EXPECT_EQ(call({"seams", "--out", "out", "--serial", "none"}, {}), 4) << output_;
-    std::ofstream(path("serial/noise.json")) << "{}";
-    EXPECT_EQ(call(judge, {"4"}), 4) << output_;
+    const json good = read("serial/noise.json");
+    const auto refused = [&](const std::string& text, const std::string& why) {
+        std::ofstream(path("serial/noise.json")) << text;
+        EXPECT_EQ(call(judge, {"4"}), 4) << output_;
+        EXPECT_THAT(output_, HasSubstr("cannot use 'serial/noise.json': " + why));
+        EXPECT_THAT(output_, testing::Not(HasSubstr("json.exception")));
+    };
+    refused("{}", "it lacks 'arguments'");
+    refused("{", "parse error");
+    json bad = good;
+    bad["wanted"] = "four";
+    refused(bad.dump(), "its 'wanted': type must be number, but is string");
+    bad = good;
+    bad["references"]["default"].erase("image");
+    refused(bad.dump(), "it lacks 'image'");
+    bad = good;
+    bad["references"].erase("default");
+    refused(bad.dump(), "its 'references' lack 'default'");
 }
 
 TEST_F(RenderPrograms, UsageErrors) {

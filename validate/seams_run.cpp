@@ -4,6 +4,7 @@
 #include "render_options.h"
 #include "result_file.h"
 #include "run_child.h"
+#include "run_image.h"
 #include "serial_stage.h"
 #include "set_aside.h"
 
@@ -186,11 +187,7 @@ class SeamsRun {
     }
 
     void judge(SeamsCase& one) {
-        try {
-            one.run = read_run_record(one.run_file);
-        } catch (const std::exception& error) {
-            throw Failure(Exit::file, error.what());
-        }
+        one.run = read_record(one.run_file);
         one.image = one.run->output;
         SerialSet& serial = *report_.serial;
         if (report_.effects.empty()) {

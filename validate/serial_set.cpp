@@ -2,6 +2,7 @@
 
 #include "failure.h"
 #include "job_identity.h"
+#include "json_input.h"
 #include "povray_command.h"
 #include "probe.h"
 #include "scratch.h"
@@ -51,11 +52,11 @@ std::string why_no_noise(const NoiseRenders& found) {
 
 SerialRender read_render(const json& j, const fs::path& folder) {
     SerialRender render;
-    render.name = j.at("name").get<std::string>();
-    render.argv = j.at("argv").get<std::vector<std::string>>();
-    render.image = folder / j.at("image").get<std::string>();
-    render.wall_seconds = j.at("seconds").get<double>();
-    render.cpu_seconds = j.at("cpu_seconds").get<double>();
+    render.name = member<std::string>(j, "name");
+    render.argv = member<std::vector<std::string>>(j, "argv");
+    render.image = folder / member<std::string>(j, "image");
+    render.wall_seconds = member<double>(j, "seconds");
+    render.cpu_seconds = member<double>(j, "cpu_seconds");
     if (!fs::exists(render.image))
         throw std::runtime_error(fmt::format("'{}' is not there", render.image.string()));
     return render;
@@ -67,18 +68,15 @@ json parse_file(const fs::path& file) {
     return json::parse(in);
 }
 
-// What is not as `request` asks for; empty where all is.
-std::string mismatch(const json& j, const SerialRequest& request, const SceneAsked& scene) {
-    const auto arguments = j.at("arguments").get<std::vector<std::string>>();
+// What is not as `request` asks for, as far as it is said without asking POV-Ray; empty: nothing.
+std::string mismatch(const json& j, const SerialRequest& request) {
+    const auto arguments = member<std::vector<std::string>>(j, "arguments");
     if (arguments != request.arguments)
         return fmt::format("rendered with other arguments: {}", fmt::join(arguments, " "));
-    const json& identity = j.at("identity");
-    if (const std::string what = what_changed(identity, scene.identity); !what.empty())
-        return fmt::format("of another state of the scene: {}", what);
-    if (const int had = j.at("wanted").get<int>(); had < request.renders)
+    if (const int had = member<int>(j, "wanted"); had < request.renders)
         return fmt::format("only {} renders to tell noise by, not {}", had, request.renders);
-    if (request.one_block && j.at("method_1").get<bool>() &&
-        !j.at("references").contains("oneblock"))
+    if (request.one_block && member<bool>(j, "method_1") &&
+        !member(j, "references").contains("oneblock"))
         return "without the reference in one block";
     return {};
 }
@@ -124,23 +122,31 @@ SerialSet read_serial_set(const SerialRequest& request, const fs::path& folder) 
     const fs::path file = folder / "noise.json";
     try {
         const json j = parse_file(file);
+        const auto require_none = [&](const std::string& wrong) {
+            if (!wrong.empty())
+                throw Failure(Exit::usage,
+                              fmt::format("the serial renders in '{}' are {}: render them again "
+                                          "with mpipov-validate noise --out",
+                                          folder.string(), wrong));
+        };
+        require_none(mismatch(j, request));
         SerialSet set;
-        set.scene = ask_scene(request);
-        if (const std::string wrong = mismatch(j, request, set.scene); !wrong.empty())
-            throw Failure(Exit::usage,
-                          fmt::format("the serial renders in '{}' are {}: render them again with "
-                                      "mpipov-validate noise --out",
-                                      folder.string(), wrong));
-        for (const auto& [name, render] : j.at("references").items()) {
+        for (const auto& [name, render] : member(j, "references").items()) {
             SerialRender& reference = set.references[name] = read_render(render, folder);
-            reference.report.antialiasing.on = j.at("method_1").get<bool>();
+            reference.report.antialiasing.on = member<bool>(j, "method_1");
         }
-        const json& noise = j.at("noise");
+        if (!set.references.contains("default"))
+            throw std::runtime_error("its 'references' lack 'default'");
+        const json& noise = member(j, "noise");
         set.noise.why_not = noise.value("why_not", noise.value("why_not_enough", ""));
-        set.noise.exact = j.at("exact").get<bool>();
-        set.noise.tried = noise.at("tried").get<int>();
+        set.noise.exact = member<bool>(j, "exact");
+        set.noise.tried = member<int>(noise, "tried");
         for (const json& render : noise.value("renders", json::array()))
             set.noise.renders.push_back({read_render(render, folder), {}});
+
+        set.scene = ask_scene(request);
+        const std::string what = what_changed(member(j, "identity"), set.scene.identity);
+        require_none(what.empty() ? "" : fmt::format("of another state of the scene: {}", what));
         compare_noise(set, {});
         return set;
     } catch (const Failure&) {
@@ -148,7 +154,7 @@ SerialSet read_serial_set(const SerialRequest& request, const fs::path& folder) 
     } catch (const std::exception& error) {
         throw Failure(Exit::file,
                       fmt::format("cannot use '{}': {}: is it of mpipov-validate noise --out?",
-                                  file.string(), error.what()));
+                                  file.string(), plain_words(error.what())));
     }
 }
 

@@ -7,7 +7,7 @@
 #include "probe.h"
 #include "result_file.h"
 #include "run_child.h"
-#include "run_record.h"
+#include "run_image.h"
 #include "scratch.h"
 
 #include <fmt/format.h>
@@ -167,14 +167,10 @@ class SpeedupRun {
     }
 
     void read_record(SpeedupRow& row, const fs::path& record) {
-        try {
-            const RunRecord run = read_run_record(record);
-            row.record = record;
-            row.plan = {run.plan.sections, run.plan.threads, run.plan.in_flight};
-            report_.versions.insert(run.versions.begin(), run.versions.end());
-        } catch (const std::exception& problem) {
-            throw Failure(Exit::file, problem.what());
-        }
+        const RunRecord run = mpipov::read_record(record);
+        row.record = record;
+        row.plan = {run.plan.sections, run.plan.threads, run.plan.in_flight};
+        report_.versions.insert(run.versions.begin(), run.versions.end());
     }
 
     // The first serial image is what all later ones, serial ones too, are compared with.

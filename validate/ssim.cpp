@@ -3,6 +3,7 @@
 #include "failure.h"
 #include "image_source.h"
 #include "interrupt.h"
+#include "json_input.h"
 #include "python_script.h"
 #include "scratch.h"
 
@@ -100,8 +101,8 @@ std::vector<Ssim> compute_ssim(const std::vector<SsimPair>& pairs, double peak) 
         for (const json& result : json::parse(in)) found.push_back(result_of(result));
         if (found.size() != pairs.size()) throw std::runtime_error("some are missing");
     } catch (const std::exception& error) {
-        throw Failure(Exit::file,
-                      fmt::format("cannot use the result of ssim.py: {}", error.what()));
+        throw Failure(Exit::file, fmt::format("cannot use the result of ssim.py: {}",
+                                              plain_words(error.what())));
     }
     for (std::size_t i = 0; i < pairs.size(); ++i)
         if (!pairs[i].map.empty() && found[i].value)
