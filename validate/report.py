@@ -23,7 +23,8 @@ sys.dont_write_bytecode = True
 import report_plots as plots  # noqa: E402
 from report_cases import VERDICTS, severity  # noqa: E402
 from report_scenes import noise_of, scene_view  # noqa: E402
-from report_text import NONE, at, count, listing, number, rounded, text, texts, whole  # noqa: E402
+from report_text import (  # noqa: E402
+    NONE, at, count, listing, number, plural, rounded, text, texts, whole)
 
 
 def hopeless_scene(entry, problem):
@@ -55,10 +56,10 @@ def scenes_of(entries):
     return scenes
 
 
-def table_of(scenes):
-    """Rows of the table over all: whole scenes that failed, then cases, failures first."""
-    rows = [{"scene": scene, "case": None, "mark": VERDICTS[scene["failed_whole"]]}
-            for scene in scenes if scene["failed_whole"]]
+def table_of(scenes, others):
+    """Rows of the table over all: what failed as a whole, then cases, failures first."""
+    rows = [{"scene": result, "case": None, "mark": VERDICTS[result["failed_whole"]]}
+            for result in [*scenes, *others] if result["failed_whole"]]
     cases = [{"scene": scene, "case": view} for scene in scenes for view in scene["views"]]
     cases.sort(key=lambda row: severity(row["case"])[:3])  # else by scene, then as in it
     return rows + cases
@@ -71,10 +72,12 @@ def tally_of(rows):
             if verdict in verdicts]
 
 
-def heading_of(entry):
-    return {"file": at(entry, "file"),
+def view_of(entry, index):
+    """Of a result that compares no cases. As of a scene, `failed_whole` says what is wrong."""
+    kind, problems = at(entry, "kind"), texts(at(entry, "problems"))
+    return {"id": f"{kind}-{index}", "file": at(entry, "file"),
             "title": text(at(entry, "data", "scene"), at(entry, "file")),
-            "problems": texts(at(entry, "problems"))}
+            "problems": problems, "failure": None, "failed_whole": "damaged" if problems else None}
 
 
 def speedup_plot_of(rows):
@@ -106,14 +109,28 @@ def speedup_spread(row):
     return "" if number(low) is None or number(high) is None else f"{rounded(low)}..{rounded(high)}"
 
 
-def speedup_of(entry):
+def found_wrong(data):
+    """[(verdict, line)] of what a speedup.json tells itself."""
+    rows = listing(at(data, "rows"))
+    if at(data, "complete") is False:
+        why = text(at(data, "failure"))
+        yield "incomplete", "not complete" + (f": {why}" if why else "")
+    for row in rows:
+        name = text(at(row, "name"), "?")
+        if text(at(row, "failure")):
+            yield "failed", f"{name}: {at(row, 'failure')}"
+        # Of POV-Ray's own threads and of bands nothing is promised.
+        if (at(row, "kind") == "mpipov" and at(row, "identical") is False
+                and at(data, "order_dependent") is False):
+            yield "differs", f"{name}: the image is not the serial one"
+
+
+def speedup_of(entry, index):
     rows = listing(at(entry, "data", "rows"))
-    view = heading_of(entry)
-    if at(entry, "data", "complete") is False:
-        why = text(at(entry, "data", "failure"))
-        view["problems"].append("not complete" + (f": {why}" if why else ""))
-    view["problems"] += [f"{text(at(row, 'name'), '?')}: {text(at(row, 'failure'))}"
-                         for row in rows if text(at(row, "failure"))]
+    view = view_of(entry, index)
+    for verdict, line in found_wrong(at(entry, "data")):
+        view["failed_whole"] = view["failed_whole"] or verdict
+        view["problems"].append(line)
     return {**view, "plot": speedup_plot_of(rows),
             "rows": [{"what": text(at(row, "what"), "?"), "ranks": count(at(row, "ranks")),
                       "image": image_note(row),
@@ -123,8 +140,20 @@ def speedup_of(entry):
                      for row in rows]}
 
 
-def noise_page_of(entry):
-    return {**heading_of(entry), "noise": noise_of(at(entry, "data", "noise"))}
+def noise_page_of(entry, index):
+    return {**view_of(entry, index), "noise": noise_of(at(entry, "data", "noise"))}
+
+
+def headline(rows, bad, speedups, noises):
+    if bad:
+        good_others = sum(not view["failed_whole"] for view in [*speedups, *noises])
+        return f"{bad} of {len(rows) + good_others} results to look at"
+    if rows:
+        return (f"All {len(rows)} cases are as they should be" if len(rows) > 1 else
+                "The case is as it should be")
+    measured = [plural(len(views), what) for views, what in (
+        (speedups, "speed-up"), (noises, "noise floor")) if views]
+    return f"{' and '.join(measured)} measured" if measured else "No scene was compared"
 
 
 @functools.cache
@@ -138,12 +167,14 @@ def template():
 def page_of(request):
     entries = listing(at(request, "entries"))
     scenes = scenes_of(entries)
-    rows = table_of(scenes)
+    speedups, noises = ([view(entry, index) for index, entry in enumerate(
+        (entry for entry in entries if at(entry, "kind") == kind), 1)]
+        for kind, view in (("speedup", speedup_of), ("noise", noise_page_of)))
+    rows = table_of(scenes, [*speedups, *noises])
+    bad = sum(not (row["case"] and row["case"]["ok"]) for row in rows)
     return template().render(
         scenes=scenes, rows=rows, tally=tally_of(rows),
-        bad=sum(not (row["case"] and row["case"]["ok"]) for row in rows),
-        speedups=[speedup_of(e) for e in entries if at(e, "kind") == "speedup"],
-        noises=[noise_page_of(e) for e in entries if at(e, "kind") == "noise"],
+        bad=bad, headline=headline(rows, bad, speedups, noises), speedups=speedups, noises=noises,
         versions=sorted({(s["mpipov"], s["povray"]) for s in scenes
                          if s["mpipov"] and s["povray"]}),
         made=datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),

@@ -15,10 +15,19 @@ VERDICTS = {"damaged": "✕", "failed": "✕", "incomplete": "…", "differs": "
 GOOD = (EXPECTED, "within noise", "identical")
 
 
+def fits(verdict, comparison):
+    """Whether the numbers say what the verdict does."""
+    identical, differing = at(comparison, "identical"), number(at(comparison, "differing"))
+    return (identical is True and differing == 0 if verdict == "identical" else
+            identical is False and differing is not None and differing > 0)
+
+
 def verdict_of(case):
     if text(at(case, "failure")):
         return "failed"
     found = text(at(case, "verdict", "verdict"))
+    if not fits(found, at(case, "comparison")):
+        return "no verdict"
     if found == "differs" and at(case, "verdict", "ok") is True:
         return EXPECTED
     return found if found in VERDICTS else "no verdict"

@@ -25,7 +25,8 @@ using testing::Not;
 json good_seams() {
     return json::parse(R"({"format": "mpipov-seams", "version": 1, "scene": "cube",
         "complete": true, "failure": null, "image": {}, "effects": {}, "references": {}, "cases":
-        [{"name": "case-1", "verdict": {"verdict": "identical", "ok": true, "why": "equal"}}]})");
+        [{"name": "case-1", "verdict": {"verdict": "identical", "ok": true, "why": "equal"},
+          "comparison": {"identical": true, "differing": 0}}]})");
 }
 
 class ReportCommand : public ProgramTest {
@@ -83,8 +84,20 @@ TEST_F(ReportCommand, SaysWhatLacks) {
                             "has a 'scene' that is number, not string", "lacks 'effects'"));
     data = good_seams();
     data["cases"] = {json::object(), 5};
-    EXPECT_THAT(problems_of(data), ElementsAre("case 1 lacks 'name'", "case 1 lacks 'verdict'",
-                                               "case 2 is number, not an object"));
+    EXPECT_THAT(problems_of(data),
+                ElementsAre("case 1 lacks 'name'", "case 1 lacks 'verdict'",
+                            "case 1 lacks 'comparison'", "case 2 is number, not an object"));
+    data = good_seams();
+    data["cases"][0]["comparison"] = {{"identical", "yes"}};
+    EXPECT_THAT(problems_of(data),
+                ElementsAre("case 1 has a comparison that has a 'identical' that is string, not "
+                            "boolean",
+                            "case 1 has a comparison that lacks 'differing'"));
+    data["cases"][0]["comparison"] = nullptr;
+    EXPECT_THAT(problems_of(data),
+                ElementsAre("case 1 has a 'comparison' that is null, not object"));
+    data["cases"][0]["failure"] = "went up in smoke";
+    EXPECT_THAT(problems_of(data), IsEmpty());
 }
 
 TEST_F(ReportCommand, TheOtherResultsNeedTheirRows) {

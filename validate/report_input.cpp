@@ -37,6 +37,9 @@ constexpr std::array<Part, 5> seams_parts{{{"scene", Type::string},
                                            {"effects", Type::object},
                                            {"cases", Type::array}}};
 constexpr std::array<Part, 2> case_parts{{{"name", Type::string}, {"verdict", Type::object}}};
+constexpr std::array<Part, 1> compared_parts{{{"comparison", Type::object}}};
+constexpr std::array<Part, 2> comparison_parts{
+    {{"identical", Type::boolean}, {"differing", Type::number_unsigned}}};
 constexpr std::array<Part, 1> rows_parts{{{"rows", Type::array}}};
 constexpr std::array<Part, 1> noise_parts{{{"noise", Type::object}}};
 
@@ -63,6 +66,15 @@ void check_parts(const json& object, const std::array<Part, N>& parts, const std
     }
 }
 
+void check_case(const json& one, const std::string& of, std::vector<std::string>& problems) {
+    check_parts(one, case_parts, of, problems);
+    if (one.value("failure", json()).is_string()) return;  // there was nothing to compare
+    check_parts(one, compared_parts, of, problems);
+    const auto comparison = one.find("comparison");
+    if (comparison != one.end() && comparison->is_object())
+        check_parts(*comparison, comparison_parts, of + "has a comparison that ", problems);
+}
+
 void check_cases(const json& data, std::vector<std::string>& problems) {
     const auto cases = data.find("cases");
     if (cases == data.end() || !cases->is_array()) return;
@@ -72,7 +84,7 @@ void check_cases(const json& data, std::vector<std::string>& problems) {
         if (!one.is_object())
             problems.push_back(fmt::format("{}is {}, not an object", of, one.type_name()));
         else
-            check_parts(one, case_parts, of, problems);
+            check_case(one, of, problems);
     }
 }
 
