@@ -55,6 +55,13 @@ Coordinator::Coordinator(CoordinatorSetup setup, Transport& transport, Canvas& c
         pixels_ += static_cast<double>(section.keep.area());
         sections_.push_back(std::move(progress));
     }
+    if (setup_.policy == Policy::cost && !setup_.costs.empty()) {
+        neighbours_.resize(sections_.size());
+        for (const Seam& seam : find_seams(setup_.partition.sections)) {
+            neighbours_[static_cast<std::size_t>(seam.a)].push_back(seam.b);
+            neighbours_[static_cast<std::size_t>(seam.b)].push_back(seam.a);
+        }
+    }
     for (std::size_t i = 0; i < seams_.size(); ++i) seams_[i].seam = overlap_.seams()[i];
 }
 
@@ -254,6 +261,7 @@ void Coordinator::take_done(const Message& message) {
     ++setup_.ranks[static_cast<std::size_t>(message.peer)].sections;
     end_launch(message.peer, record.cpu_seconds);
     learn(record);
+    correct_neighbours(record.section.id);
     if (progress.seam >= 0) {
         schedule_.finished(record.section.id);
         check_repair(progress);

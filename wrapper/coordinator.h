@@ -97,6 +97,7 @@ class Coordinator {
     double cost_of(int section) const;
     std::optional<double> expected_seconds(int section, int worker) const;
     void learn(const SectionRecord& record);
+    void correct_neighbours(int section);
     void keep_only(Progress& progress, const Run& winner);
     void take_end_of_loser(const Message& message);
     void take_progress(const Message& message);
@@ -127,7 +128,8 @@ class Coordinator {
         double seconds = 0, cost = 0;
     };
     std::vector<Pace> pace_;
-    double looked_for_copies_ = 0;  // when, seconds
+    double looked_for_copies_ = 0;              // when, seconds
+    std::vector<std::vector<int>> neighbours_;  // by section; with Policy::cost
     Totals totals_;
     std::vector<std::string> warnings_;
     int sections_done_ = 0;

@@ -28,6 +28,31 @@ void Coordinator::learn(const SectionRecord& record) {
     pace.cost += cost_of(record.section.id);
 }
 
+// Parts of a picture that touch are alike: what a neighbour took against what was expected of it,
+// and of all.
+void Coordinator::correct_neighbours(int section) {
+    if (neighbours_.empty() || section >= static_cast<int>(neighbours_.size())) return;
+    Pace all;
+    for (const Pace& pace : pace_) {
+        all.seconds += pace.seconds;
+        all.cost += pace.cost;
+    }
+    if (all.seconds <= 0 || all.cost <= 0) return;
+    for (const int neighbour : neighbours_[static_cast<std::size_t>(section)]) {
+        if (schedule_.attempts(neighbour) > 0) continue;
+        double seconds = 0, cost = 0;
+        for (const int known : neighbours_[static_cast<std::size_t>(neighbour)]) {
+            const SectionRecord& record = sections_[static_cast<std::size_t>(known)].record;
+            if (record.end <= 0 || record.resumed) continue;
+            seconds += record.wall_seconds;
+            cost += cost_of(known);
+        }
+        if (cost > 0)
+            schedule_.expect(neighbour,
+                             cost_of(neighbour) * (seconds / cost) / (all.seconds / all.cost));
+    }
+}
+
 // From what the worker has finished, or where it has nothing yet from what all have.
 std::optional<double> Coordinator::expected_seconds(int section, int worker) const {
     Pace pace = pace_[static_cast<std::size_t>(worker)];

@@ -78,7 +78,9 @@ class EventLoopTest : public FakePovrayTest {
         // A rank whose launch lost may have said that it is gone when nobody looked any more.
         RunRecord record;
         coordinator.fill(record);
-        if (record.totals.copies == 0) EXPECT_EQ(ranks.waiting(), 0u);
+        if (record.totals.copies == 0) {
+            EXPECT_EQ(ranks.waiting(), 0u);
+        }
         EXPECT_TRUE(holds_known_picture(canvas, frame));
         return record;
     }

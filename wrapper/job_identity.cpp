@@ -3,6 +3,7 @@
 #include "journal.h"
 #include "scene_files.h"
 
+#include <OpenImageIO/hash.h>
 #include <fmt/format.h>
 
 #include <array>
@@ -93,6 +94,11 @@ json job_identity(const Probe& probe, const std::vector<std::string>& arguments,
                                    region.y0 + 1, region.y1)},
             {files_key, files_of(probe, arguments)},
             {"arguments", fmt::format("'{}'", fmt::join(arguments, " "))}};
+}
+
+std::string scene_sha1(const json& identity) {
+    const std::string files = identity.at(files_key).dump();
+    return OIIO::SHA1(files.data(), files.size()).digest();
 }
 
 std::string what_changed(const json& earlier, const json& now) {

@@ -17,6 +17,9 @@ namespace mpipov {
 nlohmann::json job_identity(const Probe& probe, const std::vector<std::string>& arguments,
                             const std::string& povray_version);
 
+// Of the scene's files alone: the same for any size and options. 40 hexadecimal digits.
+std::string scene_sha1(const nlohmann::json& identity);
+
 // The first thing in which two of them differ, with both values where they can be told: "Width
 // changed from 320 to 640", "'colours.inc' changed"; "" where they are the same. Any members are
 // compared, not only ours.

@@ -81,12 +81,12 @@ void set_shape(Options& o, const std::string& value) {
 }
 
 void set_schedule(Options& o, const std::string& value) {
-    for (const Policy policy : {Policy::static_, Policy::dynamic})
+    for (const Policy policy : {Policy::static_, Policy::dynamic, Policy::cost})
         if (value == to_string(policy)) {
             o.schedule = policy;
             return;
         }
-    bad_value(value, "one of static, dynamic");
+    bad_value(value, "one of static, dynamic, cost");
 }
 
 void set_progress(Options& o, const std::string& value) {
@@ -138,7 +138,7 @@ constexpr std::array rows{
         "auto", set_seams},
     Row{sharing, "schedule", "HOW",
         "static: each rank has its sections from the start; dynamic: the next section goes to "
-        "whoever is free",
+        "whoever is free; cost: the same by what the parts of the picture cost, the longest first",
         "dynamic", set_schedule},
     Row{sharing, "slots", "N",
         "cores that this rank keeps its launches to; auto: its share of its host", "auto",

@@ -119,6 +119,7 @@ TEST(Options, EveryWordOfAChoice) {
     EXPECT_EQ(parse_options({"--shape=tiles"}).shape, Shape::tiles);
     EXPECT_EQ(parse_options({"--seams=aligned"}).seams, Seams::aligned);
     EXPECT_EQ(parse_options({"--schedule=dynamic"}).schedule, Policy::dynamic);
+    EXPECT_EQ(parse_options({"--schedule=cost"}).schedule, Policy::cost);
     EXPECT_EQ(parse_options({"--progress=plain"}).progress, ProgressStyle::plain);
     const Options halo = parse_options({"--seams=halo"});
     EXPECT_EQ(halo.seams, Seams::halo);
@@ -176,7 +177,7 @@ TEST(Options, ABadValueNamesItsOption) {
         {"timeout", {"0", "-1", "nan", "inf", "1e999", "soon", "3s"}},
         {"shape", {"squares", "", "Columns"}},
         {"seams", {"halo:", "halo:0", "halo:-1", "halo:x", "haloes", "aligned:2"}},
-        {"schedule", {"cost", "auto", ""}},
+        {"schedule", {"costs", "auto", ""}},
         {"progress", {"loud", ""}},
     };
     for (const auto& [name, values] : bad)

@@ -1,6 +1,7 @@
 #include "render_job.h"
 
 #include "coordinator.h"
+#include "cost_source.h"
 #include "cpu_time.h"
 #include "early_render.h"
 #include "event_loop.h"
@@ -31,6 +32,9 @@ namespace {
 constexpr double hello_seconds = 60;
 // A launch counts as hung after this and so many times what it should take.
 constexpr double timeout_base_seconds = 600, timeout_factor = 50;
+
+// Seconds of tracing from which it pays to look at the parts of the picture first.
+constexpr double least_render_to_look_at = 20;
 
 class RunClock {
   public:
@@ -113,6 +117,7 @@ CoordinatorSetup coordinator_setup(const Options& options,
     CoordinatorSetup setup;
     setup.partition = plan.partition;
     setup.policy = options.schedule;
+    setup.costs = plan.costs;
     setup.job = job_command(options, arguments, probe, plan);
     setup.image = {plan.record.image.width, plan.record.image.height};
     setup.ranks = ranks;
@@ -150,6 +155,21 @@ std::optional<Journal> begin_journal(const Options& options, const OutputPlace& 
     return Journal::create(place.work_folder(), identity, to_json(plan.record));
 }
 
+// What it costs to know is part of the run.
+std::optional<CostMap> find_costs(const JobSetup& setup, const std::vector<std::string>& arguments,
+                                  const Probe& probe, const OutputPlace& place,
+                                  const std::filesystem::path& scratch, RunRecord& record) {
+    const Options& options = setup.options;
+    if (auto costs = costs_of_earlier_run(place.record(), record.scene_sha1, probe.result))
+        return costs;
+    if (make_cost_model(probe.result).render < least_render_to_look_at) return {};
+    PartCosts parts = costs_of_small_parts(
+        {options.povray, arguments, scratch, options.timeout_seconds}, probe.result);
+    record.totals.cpu_seconds += parts.cpu_seconds;
+    record.totals.launches += parts.launches;
+    return std::move(parts.costs);
+}
+
 void write_record(const std::filesystem::path& file, const RunRecord& record) {
     try {
         write_run_record(file, record);
@@ -185,9 +205,17 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     const OutputPlace place(probe.result.image.output_file, options.record, options.work_dir);
     const MetRanks met = meet_ranks(setup, transport, povray);
     if (early && !section_format(probe.result.image.type).empty()) early.reset();
+    const nlohmann::json identity = job_identity(probe, arguments, povray);
+    record.scene_sha1 = scene_sha1(identity);
+    PlanRequest request = plan_request(options, met, early ? early->threads : 0);
+    if (options.schedule == Policy::cost) {
+        early.reset();
+        request.early_threads = 0;
+        request.costs = find_costs(setup, arguments, probe, place, scratch.path(), record);
+    }
     Plan plan;
     try {
-        plan = make_plan(plan_request(options, met, early ? early->threads : 0), probe.result);
+        plan = make_plan(request, probe.result);
     } catch (const std::invalid_argument& error) {
         throw Failure(Exit::usage, error.what());
     }
@@ -200,8 +228,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     place.check();
 
     Canvas canvas = make_canvas(plan.record);
-    std::optional<Journal> journal =
-        begin_journal(options, place, job_identity(probe, arguments, povray), plan);
+    std::optional<Journal> journal = begin_journal(options, place, identity, plan);
     std::optional<Coordinator> coordinator;
     try {
         if (options.resume) take_grid(plan, *journal, options);

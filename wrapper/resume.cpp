@@ -57,8 +57,11 @@ void take_grid(Plan& plan, const Journal& journal, const Options& options) {
     plan.record.halo = earlier.halo;
     plan.record.block = earlier.block;
     plan.record.sections = earlier.sections;
-    plan.partition = make_partition({earlier.region, earlier.shape, earlier.seams, earlier.sections,
-                                     earlier.halo, earlier.block});
+    plan.record.cuts = earlier.cuts;
+    plan.costs.clear();  // they are those of other sections
+    const GridRequest grid{earlier.region,   earlier.shape, earlier.seams,
+                           earlier.sections, earlier.halo,  earlier.block};
+    plan.partition = earlier.cuts.empty() ? make_partition(grid) : partition_of(grid, earlier.cuts);
 }
 
 int take_finished_sections(Coordinator& coordinator, const Journal& journal) {

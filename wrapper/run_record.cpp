@@ -116,6 +116,16 @@ SeamRecord seam_from(const json& j) {
     return s;
 }
 
+json cuts_json(const std::vector<Rect>& cuts) {
+    json all = json::array();
+    for (const Rect& cut : cuts) all.push_back(rect_json(cut));
+    return all;
+}
+
+json ratio(double measured, double predicted) {
+    return predicted > 0 ? json(measured / predicted) : json();
+}
+
 }  // namespace
 
 json to_json(const PlanRecord& plan) {
@@ -132,7 +142,8 @@ json to_json(const PlanRecord& plan) {
               {"seams", to_string(plan.seams)},
               {"halo", plan.halo},
               {"block", plan.block},
-              {"sections", plan.sections}}},
+              {"sections", plan.sections},
+              {"cuts", cuts_json(plan.cuts)}}},
             {"schedule", plan.schedule},
             {"threads", plan.threads},
             {"in_flight", plan.in_flight},
@@ -155,6 +166,7 @@ PlanRecord plan_from_json(const json& j) {
     plan.halo = grid.at("halo").get<int>();
     plan.block = grid.at("block").get<int>();
     plan.sections = grid.at("sections").get<int>();
+    for (const json& cut : grid.value("cuts", json::array())) plan.cuts.push_back(rect_from(cut));
     plan.schedule = j.at("schedule").get<std::string>();
     plan.threads = j.at("threads").get<int>();
     plan.in_flight = j.at("in_flight").get<int>();
@@ -181,12 +193,21 @@ json to_json(const RunRecord& record) {
             {"versions", record.versions},
             {"command", record.command},
             {"started", record.started},
+            {"scene_sha1", record.scene_sha1},
             {"output", {{"file", record.output.string()}, {"pixel_sha1", record.pixel_sha1}}},
             {"plan", to_json(record.plan)},
             {"ranks", ranks},
             {"sections", sections},
             {"seams", seams},
             {"repairs", repairs},
+            // Of what --dry-run promised; above 1: it took longer.
+            {"prediction",
+             {{"wall_ratio", record.complete ? ratio(record.totals.wall_seconds,
+                                                     record.plan.predicted.wall_seconds)
+                                             : json()},
+              {"cpu_ratio",
+               record.complete ? ratio(record.totals.cpu_seconds, record.plan.predicted.cpu_seconds)
+                               : json()}}},
             {"totals",
              {{"wall_seconds", record.totals.wall_seconds},
               {"cpu_seconds", record.totals.cpu_seconds},
@@ -208,6 +229,7 @@ RunRecord run_from_json(const json& j) {
         record.command = j.at("command").get<std::vector<std::string>>();
         record.started = j.at("started").get<std::string>();
         record.output = j.at("output").at("file").get<std::string>();
+        record.scene_sha1 = j.value("scene_sha1", std::string());
         record.pixel_sha1 = j.at("output").at("pixel_sha1").get<std::string>();
         record.plan = plan_from_json(j.at("plan"));
         for (const json& r : j.at("ranks"))

@@ -38,6 +38,8 @@ struct PlanRecord {
     Shape shape = Shape::columns;
     Seams seams = Seams::aligned;
     int halo = 0, block = 32, sections = 1;
+    // What each section keeps, where they are no regular grid (cut_by_cost); empty: they are.
+    std::vector<Rect> cuts;
     std::string schedule;
     int threads = 1, in_flight = 1;
     Predicted predicted;
@@ -86,6 +88,7 @@ struct RunRecord {
     std::vector<std::string> command;             // mpipov's own argv
     std::string started;                          // UTC, ISO 8601
     std::filesystem::path output;
+    std::string scene_sha1;  // of the SHA-1s of the files that the scene is made of
     std::string pixel_sha1;  // of the pixels in row order, little-endian, channels interleaved
     PlanRecord plan;
     std::vector<RankRecord> ranks;

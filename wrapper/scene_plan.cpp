@@ -1,5 +1,7 @@
 #include "scene_plan.h"
 
+#include "cost_cut.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +21,8 @@ constexpr double frame_pixel_cpu = 70e-9;
 // A render that takes longer is cut at least so that a section is about this long: what an
 // interruption can lose, and how often progress moves.
 constexpr double longest_section_seconds = 60;
+// No section is cut by its costs that would take less.
+constexpr double least_section_cpu = 0.5;
 // The grid of a scene whose pixels depend on the grid comes from the image alone.
 constexpr double pinned_section_pixels = 40000;
 constexpr int fewest_pinned = 4, most_pinned = 64;
@@ -98,7 +102,8 @@ int clamp_to(long long value, long long low, long long high) {
 struct Choice {
     int sections = 1, threads = 1;
     double wall = 0;
-    bool pooled = false;  // one rank a host renders, with all of its cores
+    bool pooled = false;                // one rank a host renders, with all of its cores
+    std::optional<Partition> cut = {};  // by what its parts cost
 };
 
 // The cheapest number of sections for launches of `threads` threads.
@@ -174,7 +179,7 @@ Choice choose_sections(const PlanRequest& request, const GridRequest& grid, cons
     const int threads = one_thread ? 1 : request.threads.value_or(1);
     if (request.sections) {
         // The bounds of MPIPOV2: n+1 <= G <= W; the upper one is the grid's own.
-        if (request.dedicated_coordinator && request.schedule == Policy::dynamic &&
+        if (request.dedicated_coordinator && request.schedule != Policy::static_ &&
             *request.sections < cores.ranks + 1)
             throw std::invalid_argument(fmt::format(
                 "--sections {}: {} rendering ranks with --dedicated-coordinator need at least {}",
@@ -188,6 +193,11 @@ Choice choose_sections(const PlanRequest& request, const GridRequest& grid, cons
                 threads, 0};
     }
     const int lanes = cores.lanes(threads);
+    if (request.schedule == Policy::cost && request.costs && !request.shape) {
+        const Partition cut = cut_by_cost(
+            grid, *request.costs, {lanes, std::max(least_section_cpu, 4 * cost.per_launch)});
+        return {static_cast<int>(cut.sections.size()), threads, 0, false, cut};
+    }
     if (request.schedule == Policy::static_) return {clamp_to(lanes, 1, most), threads, 0};
     Choice choice = cheapest(cost, lanes, threads, most);
     if (!request.threads && !one_thread) {
@@ -236,6 +246,7 @@ Plan make_plan(const PlanRequest& request, const ProbeResult& given) {
     Plan plan;
     CostModel cost = make_cost_model(probe);
     cost.early_threads = request.early_threads;
+    if (request.costs) cost.render = request.costs->cpu_seconds();
     const Antialiasing& aa = probe.report.antialiasing;
     PlanRecord& record = plan.record;
     record.effects = find_effects(probe);
@@ -266,13 +277,19 @@ Plan make_plan(const PlanRequest& request, const ProbeResult& given) {
     grid.shape = request.shape.value_or(
         choice.sections <= most_sections(grid, Shape::columns) ? Shape::columns : Shape::tiles);
     try {
-        plan.partition = make_partition(grid);
+        plan.partition = choice.cut ? *choice.cut : make_partition(grid);
     } catch (const std::invalid_argument& error) {
         if (!request.sections) throw;
         throw std::invalid_argument(
             fmt::format("--sections {}: {}", *request.sections, error.what()));
     }
 
+    grid.shape = plan.partition.request.shape;
+    if (choice.cut)
+        for (const Section& section : plan.partition.sections) record.cuts.push_back(section.keep);
+    if (request.costs)
+        for (const Section& section : plan.partition.sections)
+            plan.costs.push_back(request.costs->cpu_seconds(section.render) + cost.per_launch);
     record.shape = grid.shape;
     record.seams = grid.seams;
     record.halo = grid.halo;

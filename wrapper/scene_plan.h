@@ -2,6 +2,7 @@
 // probe's numbers in, the plan out; no processes, no clock.
 #pragma once
 
+#include "cost_map.h"
 #include "povray_text.h"
 #include "run_record.h"
 #include "schedule.h"
@@ -38,6 +39,8 @@ struct PlanRequest {
     // others. Empty: every rank keeps to its slots.
     std::vector<int> pools;
     bool dedicated_coordinator = false;
+    // What the parts of the region cost, with Policy::cost; empty: nothing is known.
+    std::optional<CostMap> costs;
     // A launch of the whole image with so many threads is under way already, 0: none.
     int early_threads = 0;
 };
@@ -45,6 +48,7 @@ struct PlanRequest {
 struct Plan {
     PlanRecord record;
     Partition partition;
+    std::vector<double> costs;       // by section, CPU seconds; empty: nothing is known
     std::vector<int> slots;          // by rank: what it renders with; 0: nothing
     std::vector<int> in_flight;      // by rank: launches under way; the record's is the most
     bool takes_early = false;        // the one section is what the early launch renders

@@ -447,5 +447,30 @@ TEST(ScenePlan, RanksHaveLaunchesUnderWayByTheirSlots) {
     EXPECT_EQ(plan.record.in_flight, plan.in_flight[1]);
 }
 
+TEST(ScenePlan, CostCutsWhereTheCostIs) {
+    PlanRequest request;
+    request.slots = {1, 1};
+    request.schedule = Policy::cost;
+    request.costs.emplace(Rect{0, 0, 640, 480},
+                          std::vector<CostPatch>{{{0, 0, 160, 480}, 30}, {{160, 0, 640, 480}, 3}});
+    const ProbeResult probe = scene(640, 480, 100);
+    const Plan plan = make_plan(request, probe);
+    ASSERT_EQ(plan.costs.size(), plan.partition.sections.size());
+    EXPECT_EQ(plan.record.cuts.size(), plan.partition.sections.size());
+    EXPECT_EQ(plan.record.shape, Shape::tiles);
+    EXPECT_EQ(plan.record.threads, 1);
+    EXPECT_LT(plan.record.predicted.cpu_seconds, 40) << "what is known, not the probe's guess";
+    EXPECT_LT(*std::max_element(plan.costs.begin(), plan.costs.end()), 33.0 / 2 / 3 + 1);
+
+    request.shape = Shape::columns;
+    EXPECT_TRUE(make_plan(request, probe).record.cuts.empty()) << "as the user wants it";
+    ProbeResult pinned = probe;
+    pinned.order_dependent = true;
+    request.shape.reset();
+    const Plan same_grid = make_plan(request, pinned);
+    EXPECT_TRUE(same_grid.record.cuts.empty()) << "its pixels depend on the grid";
+    EXPECT_EQ(same_grid.costs.size(), same_grid.partition.sections.size());
+}
+
 }  // namespace
 }  // namespace mpipov

@@ -64,6 +64,7 @@ bool Schedule::may_take(int section, int worker) const {
 
 std::optional<int> Schedule::next(int worker) {
     if (lanes_.at(static_cast<std::size_t>(worker)) == 0) return {};
+    if (!sorted_) sort_by_cost();
     for (std::deque<int>* queue : {&owned_[static_cast<std::size_t>(worker)], &shared_}) {
         // An earlier run may have finished what nobody was given yet.
         while (!queue->empty() && entries_.at(queue->front()).done) queue->pop_front();
@@ -105,6 +106,7 @@ int Schedule::hand_out(int section, int worker) {
 }
 
 void Schedule::sort_by_cost() {
+    sorted_ = true;
     if (policy_ != Policy::cost) return;
     std::stable_sort(shared_.begin(), shared_.end(),
                      [this](int a, int b) { return entries_.at(a).cost > entries_.at(b).cost; });
@@ -112,7 +114,7 @@ void Schedule::sort_by_cost() {
 
 void Schedule::expect(int section, double cost) {
     entries_.at(section).cost = cost;
-    sort_by_cost();
+    sorted_ = false;
 }
 
 void Schedule::finished(int section) {

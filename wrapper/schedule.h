@@ -83,6 +83,7 @@ class Schedule {
     std::map<int, Entry> entries_;
     std::set<int> under_way_;
     int unfinished_ = 0;
+    bool sorted_ = true;
 };
 
 }  // namespace mpipov

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 namespace mpipov {
 namespace {
@@ -107,6 +108,15 @@ std::vector<Rect> cut_rects(const GridRequest& request) {
     return rects;
 }
 
+Partition number_sections(const GridRequest& request, const std::vector<Rect>& keeps) {
+    Partition partition{request, {}};
+    const int halo = request.seams == Seams::halo ? request.halo : 0;
+    for (const Rect& keep : keeps)
+        partition.sections.push_back(
+            {static_cast<int>(partition.sections.size()), keep, grow(keep, halo, request.region)});
+    return partition;
+}
+
 }  // namespace
 
 Rect intersect(const Rect& a, const Rect& b) {
@@ -169,12 +179,16 @@ Partition make_partition(const GridRequest& request) {
             fmt::format("cannot cut {} x {} pixels into {} {} with {} seams: 1 to {} are possible",
                         request.region.width(), request.region.height(), request.sections,
                         to_string(request.shape), to_string(request.seams), most));
-    Partition partition{request, {}};
-    const int halo = request.seams == Seams::halo ? request.halo : 0;
-    for (const Rect& keep : cut_rects(request))
-        partition.sections.push_back(
-            {static_cast<int>(partition.sections.size()), keep, grow(keep, halo, request.region)});
-    return partition;
+    return number_sections(request, cut_rects(request));
+}
+
+Partition partition_of(const GridRequest& request, std::vector<Rect> keeps) {
+    std::sort(keeps.begin(), keeps.end(), [](const Rect& a, const Rect& b) {
+        return std::pair(a.y0, a.x0) < std::pair(b.y0, b.x0);
+    });
+    GridRequest of_these = request;
+    of_these.sections = static_cast<int>(keeps.size());
+    return number_sections(of_these, keeps);
 }
 
 std::vector<Seam> find_seams(const std::vector<Section>& sections) {

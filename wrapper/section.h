@@ -68,6 +68,10 @@ long long max_sections(const GridRequest& request);
 // Throws std::invalid_argument where `sections` is < 1 or more than max_sections.
 Partition make_partition(const GridRequest& request);
 
+// The same with sections of any size: `keeps`, in any order, which must cover the region without
+// overlap (not checked) and, with aligned seams, lie on its grid.
+Partition partition_of(const GridRequest& request, std::vector<Rect> keeps);
+
 // The line where two sections meet.
 struct Seam {
     int a = 0, b = 0;  // section ids; a lies left of or above b

@@ -100,5 +100,15 @@ TEST(CostMap, IsReadFromJsonAndRefusesWhatIsNone) {
     EXPECT_THROW(read_cost_map("/nowhere/costs.json"), std::runtime_error);
 }
 
+TEST(CostMap, StretchesToAnotherSize) {
+    const CostMap small({0, 0, 40, 30}, {{{0, 0, 10, 30}, 3}, {{10, 0, 40, 30}, 1}});
+    const CostMap large = stretched(small, {0, 0, 400, 300});
+    EXPECT_NEAR(large.cpu_seconds(), 400, 1e-9) << "a hundred times the pixels";
+    EXPECT_NEAR(large.cpu_seconds({0, 0, 100, 300}), 300, 1e-9);
+    const CostMap odd = stretched(small, {3, 5, 16, 12});
+    EXPECT_EQ(odd.region(), (Rect{3, 5, 16, 12}));
+    EXPECT_NEAR(odd.cpu_seconds(), 4.0 * 13 * 7 / 1200, 1e-9);
+}
+
 }  // namespace
 }  // namespace mpipov

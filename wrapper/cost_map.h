@@ -43,6 +43,9 @@ CostMap uniform_costs(const Rect& region, double cpu_seconds);
 // pixel costs ten times what it does far away.
 CostMap hill_costs(const Rect& region, double cpu_seconds);
 
+// The same for another size or part of the same picture.
+CostMap stretched(const CostMap& costs, const Rect& region);
+
 // Of a finished run's sections, without `per_launch` CPU seconds of each. Throws
 // std::invalid_argument where the record has no sections.
 CostMap costs_of_run(const RunRecord& record, double per_launch);

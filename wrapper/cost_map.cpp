@@ -122,6 +122,24 @@ CostMap hill_costs(const Rect& region, double cpu_seconds) {
     return {region, std::move(patches)};
 }
 
+CostMap stretched(const CostMap& costs, const Rect& region) {
+    const Rect& from = costs.region();
+    const auto along = [](int at, int a0, int a1, int b0, int b1) {
+        return b0 +
+               static_cast<int>(std::llround(static_cast<double>(at - a0) * (b1 - b0) / (a1 - a0)));
+    };
+    const double more = static_cast<double>(region.area()) / static_cast<double>(from.area());
+    std::vector<CostPatch> patches;
+    for (const auto& [r, seconds] : costs.patches()) {
+        const Rect to{along(r.x0, from.x0, from.x1, region.x0, region.x1),
+                      along(r.y0, from.y0, from.y1, region.y0, region.y1),
+                      along(r.x1, from.x0, from.x1, region.x0, region.x1),
+                      along(r.y1, from.y0, from.y1, region.y0, region.y1)};
+        if (!to.empty()) patches.push_back({to, seconds * more});
+    }
+    return {region, std::move(patches)};
+}
+
 CostMap costs_of_run(const RunRecord& record, double per_launch) {
     if (record.sections.empty()) throw std::invalid_argument("the record has no sections");
     std::vector<CostPatch> patches;
