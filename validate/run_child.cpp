@@ -1,8 +1,8 @@
 #include "run_child.h"
 
-#include "failure.h"
 #include "interrupt.h"
 
+#include <fmt/format.h>
 #include <poll.h>
 
 #include <algorithm>
@@ -28,6 +28,24 @@ ChildResult run_child(const ChildRequest& request, std::string* output) {
     } catch (const std::exception& error) {
         throw Failure(Exit::file, error.what());
     }
+}
+
+std::string povray_not_found(const std::string& povray) {
+    return fmt::format("cannot start '{}': is POV-Ray installed, or named with --povray?", povray);
+}
+
+std::string mpiexec_not_found(const std::string& mpiexec) {
+    return fmt::format("cannot start '{}': is MPI installed, or named with --mpiexec?", mpiexec);
+}
+
+Failure mpipov_failure(const ChildResult& result, const std::string& output,
+                       const std::string& mpiexec) {
+    if (result.exit_code == 127) return {Exit::file, mpiexec_not_found(mpiexec)};
+    const std::string why = result.signal ? fmt::format("ended by signal {}", *result.signal)
+                                          : fmt::format("mpipov failed: {}", last_line(output));
+    for (const Exit code : {Exit::usage, Exit::file})
+        if (result.exit_code == static_cast<int>(code)) return {code, why};
+    return {Exit::scene, why};
 }
 
 std::string last_line(std::string_view text) {

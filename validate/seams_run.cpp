@@ -167,10 +167,7 @@ class SeamsRun {
         std::string output;
         const ChildResult result = run_child(child, &output);
         one.seconds = result.wall_seconds;
-        if (result.exit_code == 127)
-            throw Failure(Exit::file, fmt::format("cannot start '{}': is MPI installed, or named "
-                                                  "with --mpiexec?",
-                                                  request_.mpiexec));
+        if (result.exit_code == 127) throw mpipov_failure(result, output, request_.mpiexec);
         if (result.exit_code == static_cast<int>(Exit::usage)) {
             report_.skipped.push_back({one.name, last_line(output)});
             fs::remove(folder, ignored);
@@ -179,10 +176,7 @@ class SeamsRun {
         }
         settle();
         earlier.drop();
-        if (result.exit_code != 0)
-            throw Failure(
-                result.exit_code == static_cast<int>(Exit::file) ? Exit::file : Exit::scene,
-                fmt::format("mpipov failed: {}", last_line(output)));
+        if (result.exit_code != 0) throw mpipov_failure(result, output, request_.mpiexec);
         return true;
     }
 

@@ -64,10 +64,7 @@ SerialRender SerialRenderer::render(const std::string& name, const std::vector<s
     request.argv.push_back(fmt::format("+O\"{}\"", (place / "image").string()));
     std::string output;
     const ChildResult result = run_child(request, &output);
-    if (result.exit_code == 127)
-        throw Failure(Exit::scene, fmt::format("cannot start '{}': is POV-Ray installed, or named "
-                                               "with --povray?",
-                                               povray_));
+    if (result.exit_code == 127) throw Failure(Exit::scene, povray_not_found(povray_));
     if (result.exit_code != 0)
         throw Failure(is_option_error(output) ? Exit::usage : Exit::scene,
                       fmt::format("POV-Ray: {}", parse_error(output)));

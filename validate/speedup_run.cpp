@@ -38,31 +38,22 @@ std::optional<double> load_average() {
     return getloadavg(&load, 1) == 1 ? std::optional(load) : std::nullopt;
 }
 
-// Why a command failed that ended so; empty where it did not.
-std::string failure_of(const SpeedupVariant& variant, const SpeedupTools& tools,
-                       const ChildResult& result, const std::string& output) {
+// Why a command failed that ended so; none where it did not.
+std::optional<Failure> failure_of(const SpeedupVariant& variant, const SpeedupTools& tools,
+                                  const ChildResult& result, const std::string& output) {
     if (result.exit_code == 0) return {};
-    if (result.signal) return fmt::format("ended by signal {}", *result.signal);
-    const bool not_found = result.exit_code == 127;
-    switch (variant.kind) {
-        case Kind::serial:
-        case Kind::threads:
-            if (not_found)
-                return fmt::format(
-                    "cannot start '{}': is POV-Ray installed, or named with --povray?",
-                    tools.povray);
-            return fmt::format("POV-Ray: {}", parse_error(output));
-        case Kind::bands:
-            if (const auto at = output.find("oiiotool ERROR"); at != std::string::npos)
-                return output.substr(at, output.find('\n', at) - at);
-            return not_found ? last_line(output) : fmt::format("POV-Ray: {}", parse_error(output));
-        case Kind::mpipov:
-            break;
-    }
-    if (not_found)
-        return fmt::format("cannot start '{}': is MPI installed, or named with --mpiexec?",
-                           tools.mpiexec);
-    return fmt::format("mpipov failed: {}", last_line(output));
+    if (variant.kind == Kind::mpipov) return mpipov_failure(result, output, tools.mpiexec);
+    if (result.signal)
+        return Failure(Exit::scene, fmt::format("ended by signal {}", *result.signal));
+    const auto oiiotool = output.find("oiiotool ERROR");
+    if (variant.kind == Kind::bands && oiiotool != std::string::npos)
+        return Failure(Exit::scene,
+                       output.substr(oiiotool, output.find('\n', oiiotool) - oiiotool));
+    if (result.exit_code == 127)
+        return Failure(Exit::scene, variant.kind == Kind::bands ? last_line(output)
+                                                                : povray_not_found(tools.povray));
+    return Failure(is_option_error(output) ? Exit::usage : Exit::scene,
+                   fmt::format("POV-Ray: {}", parse_error(output)));
 }
 
 class SpeedupRun {
@@ -147,23 +138,13 @@ class SpeedupRun {
         child.argv = row.argv;
         std::string output;
         const ChildResult result = run_child(child, &output);
-        if (const std::string why = failure_of(variant, request_.tools, result, output);
-            !why.empty())
-            throw Failure(failure_code(variant, result, output), why);
+        if (const auto failure = failure_of(variant, request_.tools, result, output))
+            throw *failure;
         row.times.back() = result.wall_seconds;
 
         if (variant.kind == Kind::mpipov) read_record(row, record);
         look_at_image(row, place / ("image" + scene_.extension));
         fs::remove_all(place, error);
-    }
-
-    static Exit failure_code(const SpeedupVariant& variant, const ChildResult& result,
-                             const std::string& output) {
-        if (variant.kind != Kind::mpipov)
-            return result.exit_code && is_option_error(output) ? Exit::usage : Exit::scene;
-        for (const Exit code : {Exit::usage, Exit::file})
-            if (result.exit_code == static_cast<int>(code)) return code;
-        return result.exit_code == 127 ? Exit::file : Exit::scene;
     }
 
     void read_record(SpeedupRow& row, const fs::path& record) {
