@@ -34,6 +34,7 @@ class SilentStderr {
     }
     ~SilentStderr() {
         stderr = loud_;
+        // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): this class is what owns it
         if (silent_ != nullptr) std::fclose(silent_);
     }
     SilentStderr(const SilentStderr&) = delete;

@@ -128,6 +128,7 @@ TEST_F(RenderPrograms, AnEarlierResultOutlivesARunThatJudgedNothing) {
                                          "out/dynamic.np1.columns.aligned.g2/run.json",
                                          "out/dynamic.np1.columns.aligned.g2/image.png"};
     std::vector<std::string> earlier;
+    earlier.reserve(files.size());
     for (const std::string& file : files) earlier.push_back(bytes_of(file));
     const auto unchanged = [&](const std::string& what) {
         for (std::size_t i = 0; i < files.size(); ++i)

@@ -21,6 +21,7 @@ namespace mpipov {
 inline constexpr int fewest_noise_renders = 3, default_noise_renders = 12;
 
 // What is known of the scene before anything of it is rendered as a whole.
+// NOLINTNEXTLINE(bugprone-exception-escape): moving JSON only asserts
 struct SceneAsked {
     std::string povray_version;
     std::string name, file;  // file: as the user gave it
@@ -52,6 +53,7 @@ struct SerialRequest {
     bool one_block = false;  // the second reference, where antialiasing sees blocks
 };
 
+// NOLINTNEXTLINE(bugprone-exception-escape): moving JSON only asserts
 struct SerialSet {
     SceneAsked scene;
     // "default": POV-Ray's blocks. "oneblock": all in one, the paper's scan line; only where
