@@ -4,12 +4,9 @@
 #include "image_file.h"
 #include "image_source.h"
 #include "json_input.h"
+#include "sha1_digits.h"
 
-#include <OpenImageIO/hash.h>
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cctype>
 
 namespace mpipov {
 
@@ -31,10 +28,7 @@ std::string pixel_sha1(const fs::path& image) {
         OIIO::SHA1 hash;
         while (const auto band = reader.next())
             hash.append(band->pixels.data(), band->pixels.size());
-        std::string digest = hash.digest();
-        std::ranges::transform(digest, digest.begin(),
-                               [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-        return digest;
+        return sha1_digits(hash);
     } catch (const std::runtime_error& error) {
         throw Failure(Exit::file, error.what());
     }

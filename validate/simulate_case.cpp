@@ -25,10 +25,7 @@ SimulateTerm& require(std::vector<SimulateTerm>& terms, const std::string& name)
 GridRequest grid_of(const SimulateCase& what, int sections) {
     GridRequest grid = what.grid;
     grid.sections = sections;
-    if (what.auto_shape) {
-        grid.shape = Shape::columns;
-        if (sections > max_sections(grid)) grid.shape = Shape::tiles;
-    }
+    if (what.auto_shape) grid.shape = auto_shape(grid);
     return grid;
 }
 

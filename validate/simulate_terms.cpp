@@ -1,5 +1,6 @@
 // Where the terms' values come from: constants that were measured once, and a run's record.
 #include "image_file.h"
+#include "launch_costs.h"
 #include "simulate_case.h"
 
 #include <fmt/format.h>
@@ -10,8 +11,7 @@
 namespace mpipov {
 namespace {
 
-// Measured, docs/simulation.md says how; the first three are those of the planner's cost model.
-constexpr double start_seconds = 0.7, bare_cpu = 0.06, frame_pixel_cpu = 70e-9;
+// Measured, docs/simulation.md says how.
 constexpr double answer_seconds = 0.025;
 constexpr double service_seconds = 1.0 / 2000;
 constexpr double before_seconds = 1.0;
@@ -55,7 +55,7 @@ void take_start_up(const RunRecord& record, std::vector<SimulateTerm>& terms) {
     double idle = never;
     for (const SectionRecord& section : record.sections)
         idle = std::min(idle, section.wall_seconds - section.cpu_seconds);
-    if (idle > 0 && idle < 2 * start_seconds)
+    if (idle > 0 && idle < 2 * startup_wall_seconds)
         set_term(terms, term::start, idle, "the record: least wall - CPU of a launch");
 }
 
@@ -63,7 +63,8 @@ void take_launch(const RunRecord& record, std::vector<SimulateTerm>& terms) {
     const PlanRecord& plan = record.plan;
     const double all = per_launch_cpu(record);
     double photons = cpu_of(plan, "photons"), radiosity = cpu_of(plan, "radiosity");
-    double frame = frame_pixel_cpu * plan.image.width * plan.image.height, bare = bare_cpu;
+    double frame = frame_pixel_cpu_seconds * plan.image.width * plan.image.height,
+           bare = bare_launch_cpu_seconds;
     const double known = photons + radiosity + frame + bare;
     // What the cheapest section did not take is taken from all alike.
     const double part = known > all ? all / known : 1;
@@ -98,13 +99,13 @@ std::vector<SimulateTerm> default_terms(int width, int height) {
     const double pixels = static_cast<double>(width) * height;
     const std::string doc = "docs/simulation.md";
     return {
-        {term::start, start_seconds, "s, core idle, each launch", true, doc},
+        {term::start, startup_wall_seconds, "s, core idle, each launch", true, doc},
         {term::end, 0, "s, core idle, each launch", false, "counted with the start-up"},
-        {term::bare, bare_cpu, "CPU s, each launch", true, doc},
+        {term::bare, bare_launch_cpu_seconds, "CPU s, each launch", true, doc},
         {term::parse, 0, "CPU s, each launch", false, no_scene},
         {term::photons, 0, "CPU s, each launch, by all threads", false, no_scene},
         {term::radiosity, 0, "CPU s, each launch, by all threads", false, no_scene},
-        {term::frame, frame_pixel_cpu * pixels, "CPU s, each launch", true,
+        {term::frame, frame_pixel_cpu_seconds * pixels, "CPU s, each launch", true,
          "70 ns for each pixel of the whole image, " + doc},
         {term::answer, answer_seconds, "s, each section, lane idle", true, doc},
         {term::service, service_seconds, "s of rank 0's loop, each section", true, doc},

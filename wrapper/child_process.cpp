@@ -260,6 +260,11 @@ int ChildProcess::output_fd() const {
 int ChildProcess::exit_fd() const {
     return state_->exit_fd();
 }
+
+void ChildProcess::add_poll_fds(std::vector<pollfd>& fds) const {
+    fds.push_back({output_fd(), POLLIN, 0});
+    fds.push_back({exit_fd(), POLLIN, 0});
+}
 int ChildProcess::wait_milliseconds() const {
     return state_->wait_milliseconds();
 }

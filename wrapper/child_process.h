@@ -13,6 +13,8 @@
 // neither exit code nor signal.
 #pragma once
 
+#include <poll.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -72,6 +74,7 @@ class ChildProcess {
     // to wait for. exit_fd is a pidfd: it tells the end of a child that closed its streams.
     int output_fd() const;
     int exit_fd() const;
+    void add_poll_fds(std::vector<pollfd>& fds) const;  // both
     // The longest that ::poll() on both may sleep before poll() must be called for a deadline.
     int wait_milliseconds() const;
 

@@ -57,7 +57,7 @@ Coordinator::Coordinator(CoordinatorSetup setup, Transport& transport, Canvas& c
     }
     if (setup_.policy == Policy::cost && !setup_.costs.empty()) {
         neighbours_.resize(sections_.size());
-        for (const Seam& seam : find_seams(setup_.partition.sections)) {
+        for (const Seam& seam : overlap_.seams()) {
             neighbours_[static_cast<std::size_t>(seam.a)].push_back(seam.b);
             neighbours_[static_cast<std::size_t>(seam.b)].push_back(seam.a);
         }
@@ -114,13 +114,9 @@ void Coordinator::assign_to_all() {
     }
 }
 
-bool Coordinator::has_room(int worker) const {
-    const auto rank = static_cast<std::size_t>(worker);
-    return under_way_[rank] < setup_.in_flight.at(rank);
-}
-
 void Coordinator::assign_to(int worker) {
-    if (!has_room(worker)) return;
+    const auto rank = static_cast<std::size_t>(worker);
+    if (under_way_[rank] >= setup_.in_flight.at(rank)) return;
     if (const std::optional<int> next = schedule_.next(worker)) begin(*next, worker);
 }
 

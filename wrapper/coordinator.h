@@ -88,7 +88,6 @@ class Coordinator {
         Run* run = nullptr;
     };
 
-    bool has_room(int worker) const;
     void assign_to(int worker);
     void assign_to_all();
     void begin(int section, int worker);
@@ -127,6 +126,7 @@ class Coordinator {
     struct Pace {
         double seconds = 0, cost = 0;
     };
+    Pace pace_of_all() const;
     std::vector<Pace> pace_;
     double looked_for_copies_ = 0;              // when, seconds
     std::vector<std::vector<int>> neighbours_;  // by section; with Policy::cost

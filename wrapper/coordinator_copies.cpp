@@ -1,5 +1,6 @@
 // The coordinator's care for the end of a run: idle ranks copy the section that would end last.
 #include "coordinator.h"
+#include "launch_costs.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +10,8 @@
 namespace mpipov {
 namespace {
 
-// POV-Ray's idle start-up, and how much longer than expected a copy may take and still pay.
-constexpr double startup_seconds = 0.7, copy_margin = 1.25;
+// How much longer than expected a copy may take and still pay.
+constexpr double copy_margin = 1.25;
 // Below this POV-Ray's progress says little.
 constexpr double least_fraction = 0.05;
 
@@ -28,15 +29,20 @@ void Coordinator::learn(const SectionRecord& record) {
     pace.cost += cost_of(record.section.id);
 }
 
-// Parts of a picture that touch are alike: what a neighbour took against what was expected of it,
-// and of all.
-void Coordinator::correct_neighbours(int section) {
-    if (neighbours_.empty() || section >= static_cast<int>(neighbours_.size())) return;
+Coordinator::Pace Coordinator::pace_of_all() const {
     Pace all;
     for (const Pace& pace : pace_) {
         all.seconds += pace.seconds;
         all.cost += pace.cost;
     }
+    return all;
+}
+
+// Parts of a picture that touch are alike: what a neighbour took against what was expected of it,
+// and of all.
+void Coordinator::correct_neighbours(int section) {
+    if (neighbours_.empty() || section >= static_cast<int>(neighbours_.size())) return;
+    const Pace all = pace_of_all();
     if (all.seconds <= 0 || all.cost <= 0) return;
     for (const int neighbour : neighbours_[static_cast<std::size_t>(section)]) {
         if (schedule_.attempts(neighbour) > 0) continue;
@@ -56,11 +62,7 @@ void Coordinator::correct_neighbours(int section) {
 // From what the worker has finished, or where it has nothing yet from what all have.
 std::optional<double> Coordinator::expected_seconds(int section, int worker) const {
     Pace pace = pace_[static_cast<std::size_t>(worker)];
-    if (pace.cost <= 0)
-        for (const Pace& other : pace_) {
-            pace.seconds += other.seconds;
-            pace.cost += other.cost;
-        }
+    if (pace.cost <= 0) pace = pace_of_all();
     if (pace.cost <= 0) return {};
     return pace.seconds / pace.cost * cost_of(section);
 }
@@ -78,7 +80,7 @@ Outlook Coordinator::outlook(int section, int worker) const {
     // Without a word of it for longer than it should take in all, it may take as long again.
     const double left = fraction >= least_fraction ? elapsed * (1 - fraction) / fraction
                                                    : std::max(*there - elapsed, elapsed);
-    return {left, startup_seconds + copy_margin * *here};
+    return {left, startup_wall_seconds + copy_margin * *here};
 }
 
 void Coordinator::tick() {

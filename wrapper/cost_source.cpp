@@ -60,10 +60,7 @@ void wait_for(std::vector<ChildProcess>& children) {
     while (!all_ended(children)) {
         throw_if_interrupted();
         fds.clear();
-        for (const ChildProcess& child : children) {
-            fds.push_back({child.output_fd(), POLLIN, 0});
-            fds.push_back({child.exit_fd(), POLLIN, 0});
-        }
+        for (const ChildProcess& child : children) child.add_poll_fds(fds);
         ::poll(fds.data(), fds.size(), 50);
     }
 }

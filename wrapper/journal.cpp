@@ -2,13 +2,12 @@
 
 #include "failure.h"
 #include "job_identity.h"
+#include "sha1_digits.h"
 
-#include <OpenImageIO/hash.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -101,10 +100,7 @@ std::string sha1_of_file(const std::filesystem::path& file) {
     std::vector<char> buffer(std::size_t{1} << 20);
     while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0)
         sha.append(buffer.data(), static_cast<std::size_t>(in.gcount()));
-    std::string digits = sha.digest();  // in upper case, unlike everybody else's
-    std::transform(digits.begin(), digits.end(), digits.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return digits;
+    return sha1_digits(sha);
 }
 
 std::filesystem::path Journal::pixel_file(int section) const {

@@ -199,10 +199,7 @@ std::filesystem::path ProbeLaunches::image_of(const Launch& launch) {
 
 void ProbeLaunches::sleep() const {
     std::vector<pollfd> fds;
-    for (const Launch& launch : launches_) {
-        fds.push_back({launch.child.output_fd(), POLLIN, 0});
-        fds.push_back({launch.child.exit_fd(), POLLIN, 0});
-    }
+    for (const Launch& launch : launches_) launch.child.add_poll_fds(fds);
     ::poll(fds.data(), fds.size(), 50);
 }
 

@@ -14,10 +14,6 @@ namespace mpipov {
 namespace {
 
 constexpr int povray_block = 32;
-// CPU seconds of a launch of an empty scene, and of writing one pixel of the full frame around a
-// section (both measured, docs/architecture.md).
-constexpr double bare_launch_cpu = 0.06;
-constexpr double frame_pixel_cpu = 70e-9;
 // A render that takes longer is cut at least so that a section is about this long: what an
 // interruption can lose, and how often progress moves.
 constexpr double longest_section_seconds = 60;
@@ -233,8 +229,8 @@ CostModel make_cost_model(const ProbeResult& given) {
     const LaunchReport& report = probe.report;
     const double frame = static_cast<double>(probe.image.width) * probe.image.height;
     cost.render = report.trace_cpu * area_ratio(probe);
-    cost.per_launch =
-        bare_launch_cpu + report.parse_cpu + report.photon_cpu + frame_pixel_cpu * frame;
+    cost.per_launch = bare_launch_cpu_seconds + report.parse_cpu + report.photon_cpu +
+                      frame_pixel_cpu_seconds * frame;
     // The pretrace looks at the section only, but it must light that section's surroundings too:
     // nearly all of it is paid again.
     if (report.radiosity) cost.per_launch += report.radiosity_cpu;
@@ -274,8 +270,7 @@ Plan make_plan(const PlanRequest& request, const ProbeResult& given) {
         plan.notes.push_back("with halo seams a launch has one thread: --threads does nothing");
 
     grid.sections = choice.sections;
-    grid.shape = request.shape.value_or(
-        choice.sections <= most_sections(grid, Shape::columns) ? Shape::columns : Shape::tiles);
+    grid.shape = request.shape.value_or(auto_shape(grid));
     try {
         plan.partition = choice.cut ? *choice.cut : make_partition(grid);
     } catch (const std::invalid_argument& error) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cost_map.h"
+#include "launch_costs.h"
 #include "povray_text.h"
 #include "run_record.h"
 #include "schedule.h"
@@ -60,10 +61,10 @@ Plan make_plan(const PlanRequest& request, const ProbeResult& probe);
 
 // The terms of the cost model, seconds of CPU. Sources: docs/architecture.md, "Cost model".
 struct CostModel {
-    double render = 0;          // tracing the whole region
-    double per_launch = 0;      // paid again by every launch: parse, photons, full-frame output
-    double startup_wall = 0.7;  // idle wall time of a launch, during which its core is free
-    int early_threads = 0;      // a launch of all with so many threads has its start-up behind it
+    double render = 0;      // tracing the whole region
+    double per_launch = 0;  // paid again by every launch: parse, photons, full-frame output
+    double startup_wall = startup_wall_seconds;
+    int early_threads = 0;  // a launch of all with so many threads has its start-up behind it
 
     double cpu_seconds(int sections) const { return render + sections * per_launch; }
     // Wall time of `sections` equal shares on `lanes` launches at once of `threads` threads each.

@@ -169,6 +169,11 @@ long long max_sections(const GridRequest& request) {
     return 0;
 }
 
+Shape auto_shape(GridRequest request) {
+    request.shape = Shape::columns;
+    return request.sections <= max_sections(request) ? Shape::columns : Shape::tiles;
+}
+
 Partition make_partition(const GridRequest& request) {
     if (request.region.empty()) throw std::invalid_argument("the region to render is empty");
     if (request.block < 1) throw std::invalid_argument("a render block has at least one pixel");

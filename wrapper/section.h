@@ -61,6 +61,10 @@ struct Partition {
 // The largest number of sections that a grid of this shape and kind of seam can have.
 long long max_sections(const GridRequest& request);
 
+// Columns, as in the 1999 paper, while the grid has enough of them for its number of sections, then
+// tiles. Whatever `request.shape` is.
+Shape auto_shape(GridRequest request);
+
 // Cuts the region up. Columns and rows as MPIPOV 1999 cut them: every strip has
 // floor(size / sections) pixels (with aligned: grid cells) and the last one takes the rest up to W;
 // but where the rest is more than an eighth of a strip (and more than one unit), it is spread, one

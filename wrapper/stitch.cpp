@@ -1,13 +1,13 @@
 #include "stitch.h"
 
+#include "sha1_digits.h"
+
 #include <Imath/half.h>
-#include <OpenImageIO/hash.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
@@ -154,10 +154,7 @@ std::span<const std::byte> Canvas::rows(int y0, int y1) const {
 std::string Canvas::sha1() const {
     const auto all = rows(0, layout_.height);
     OIIO::SHA1 hash(all.data(), all.size());
-    std::string digest = hash.digest();
-    std::ranges::transform(digest, digest.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return digest;
+    return sha1_digits(hash);
 }
 
 Difference differing_pixels(const Canvas& canvas, const Rect& rect,

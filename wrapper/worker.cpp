@@ -200,9 +200,7 @@ void Worker::send_failure(const Launch& launch, const std::string& why) {
 
 void Worker::add_poll_fds(std::vector<pollfd>& fds) const {
     for (const Launch& launch : launches_) {
-        if (launch.reader) continue;
-        fds.push_back({launch.child.output_fd(), POLLIN, 0});
-        fds.push_back({launch.child.exit_fd(), POLLIN, 0});
+        if (!launch.reader) launch.child.add_poll_fds(fds);
     }
 }
 
