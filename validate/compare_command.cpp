@@ -3,6 +3,7 @@
 #include "compare.h"
 #include "compare_report.h"
 #include "json_output.h"
+#include "number_check.h"
 #include "run_image.h"
 
 #include <CLI/Config.hpp>
@@ -10,7 +11,6 @@
 #include <CLI/Validators.hpp>
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -80,14 +80,8 @@ Command add_compare_command(CLI::App& program) {
     app->add_option("--peak", options->peak,
                     "peak of PSNR and range of SSIM, where full scale is 1; for float images that "
                     "are not in [0, 1]")
-        ->check(CLI::Validator(
-            [](const std::string& text) {
-                double value = 0;
-                const bool good =
-                    CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
-                return good ? "" : fmt::format("'{}' is no finite number above 0", text);
-            },
-            "NUMBER > 0"))
+        ->check(finite_number("finite number above 0", "NUMBER > 0",
+                              [](double value) { return value > 0; }))
         ->capture_default_str();
     CLI::Option* ssim =
         app->add_flag("--ssim", options->ssim, "compute SSIM even of identical images");

@@ -1,11 +1,11 @@
 // The options of `simulate` as CLI11 wants them told.
+#include "number_check.h"
+#include "render_options.h"
 #include "simulate_options.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Validators.hpp>
-
-#include <cmath>
 
 namespace mpipov {
 namespace {
@@ -13,23 +13,17 @@ namespace {
 const CLI::Range whole(1, 1 << 20);
 
 CLI::Validator at_least_nothing() {
-    return {[](const std::string& text) {
-                double value = 0;
-                const bool good =
-                    CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= 0;
-                return good ? std::string() : "'" + text + "' is no number from 0";
-            },
-            "NUMBER >= 0"};
+    return finite_number("number from 0", "NUMBER >= 0", [](double value) { return value >= 0; });
 }
 
 CLI::Validator above_nothing() {
-    return {[](const std::string& text) {
-                double value = 0;
-                const bool good =
-                    CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
-                return good ? std::string() : "'" + text + "' is no number above 0";
-            },
-            "NUMBER > 0"};
+    return finite_number("number above 0", "NUMBER > 0", [](double value) { return value > 0; });
+}
+
+std::vector<std::string> schedule_names() {
+    std::vector<std::string> names;
+    for (const Policy policy : schedules) names.emplace_back(to_string(policy));
+    return names;
 }
 
 void add_costs(CLI::App& app, SimulateOptions& options) {
@@ -82,7 +76,7 @@ void add_ranks(CLI::App& app, SimulateOptions& options) {
 void add_grid(CLI::App& app, SimulateOptions& options) {
     const std::string group = "As for mpipov";
     app.add_option("--schedule", options.schedule, "static, dynamic or cost")
-        ->check(CLI::IsMember({"static", "dynamic", "cost"}))
+        ->check(CLI::IsMember(schedule_names()))
         ->capture_default_str()
         ->group(group);
     app.add_option("--sections", options.sections,

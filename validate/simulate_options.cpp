@@ -35,8 +35,7 @@ Rect image_of(const std::string& text) {
 }
 
 template <class Enum>
-Enum one_of(const std::string& option, const std::string& text,
-            std::initializer_list<Enum> values) {
+Enum one_of(const std::string& option, const std::string& text, const std::vector<Enum>& values) {
     for (const Enum value : values)
         if (to_string(value) == text) return value;
     refuse(fmt::format("{}: '{}' is no such {}", option, text, option.substr(2)));
@@ -120,16 +119,16 @@ void take_terms(SimulateCase& what, const SimulateOptions& options) {
 }
 
 void take_grid(SimulateCase& what, const SimulateOptions& options) {
-    what.policy =
-        one_of("--schedule", options.schedule, {Policy::static_, Policy::dynamic, Policy::cost});
+    what.policy = one_of("--schedule", options.schedule, schedules);
     if (!options.seams.empty()) {
-        what.grid.seams = one_of("--seams", options.seams, {Seams::aligned, Seams::plain});
+        what.grid.seams =
+            one_of("--seams", options.seams, std::vector{Seams::aligned, Seams::plain});
         what.grid.halo = 0;
     }
     what.auto_shape = options.shape == "auto";
     if (!what.auto_shape)
-        what.grid.shape =
-            one_of("--shape", options.shape, {Shape::columns, Shape::rows, Shape::tiles});
+        what.grid.shape = one_of("--shape", options.shape,
+                                 std::vector{Shape::columns, Shape::rows, Shape::tiles});
     if (options.sections) what.sections = options.sections;
     what.in_flight = options.in_flight;
     if (options.threads) what.threads = *options.threads;
