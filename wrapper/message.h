@@ -10,18 +10,18 @@
 namespace mpipov {
 
 enum class MessageKind : unsigned char {
-    hello,     // worker: slots, host, POV-Ray's version
-    job,       // coordinator: what is the same for every section
-    assign,    // coordinator: render this section
-    progress,  // worker: how far a section is
-    band,      // worker: some rows of a section's pixels, in the body
-    done,      // worker: all bands of a section were sent; its times
-    failed,    // worker: why a section did not work out
-    cancel,    // coordinator: another rank was first with this section
-    cancelled, // worker: its launch is gone; what it spent
-    stop,      // coordinator: no more work
-    refused,   // worker: this rank cannot render at all, or no more
-    bye,       // worker: its last message
+    hello,      // worker: slots, host, POV-Ray's version
+    job,        // coordinator: what is the same for every section
+    assign,     // coordinator: render this section
+    progress,   // worker: how far a section is
+    band,       // worker: some rows of a section's pixels, in the body
+    done,       // worker: all bands of a section were sent; its times
+    failed,     // worker: why a section did not work out
+    cancel,     // coordinator: another rank was first with this section
+    cancelled,  // worker: its launch is gone; what it spent
+    stop,       // coordinator: no more work
+    refused,    // worker: this rank cannot render at all, or no more
+    bye,        // worker: its last message
 };
 
 // NOLINTNEXTLINE(bugprone-exception-escape): moving JSON only asserts
