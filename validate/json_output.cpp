@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
 
 namespace mpipov {
 
@@ -14,28 +13,12 @@ namespace fs = std::filesystem;
 
 void write_json(const std::string& target, const nlohmann::json& json) {
     const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-    const auto fail = [&](const std::string& why) {
-        throw Failure(Exit::file, fmt::format("cannot write '{}': {}", target, why));
-    };
     if (target == "-") {
         fmt::print("{}\n", text);  // main sees to it that it arrives
         return;
     }
-    const auto write_to = [&](const fs::path& file) {
-        std::ofstream out(file);
-        out << text << '\n';
-        if (!out.flush()) fail("is there such a folder, and room in it?");
-    };
-    std::error_code none;
-    const fs::file_status status = fs::status(target, none);
-    if (fs::exists(status) && !fs::is_regular_file(status)) {  // /dev/null must not be replaced
-        write_to(target);
-        return;
-    }
     try {
-        PartFile part(target);
-        write_to(part.path());
-        part.take_place();
+        write_whole(target, text + '\n');
     } catch (const Failure&) {
         throw;
     } catch (const std::runtime_error& error) {

@@ -8,13 +8,12 @@
 #include "seams_command.h"
 #include "simulate_command.h"
 #include "speedup_command.h"
+#include "standard_output.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <string>
 #include <vector>
@@ -25,13 +24,6 @@ using mpipov::Exit;
 
 int finish(Exit code) {
     return static_cast<int>(code);
-}
-
-// What was printed must have arrived: a result that a full disk swallowed is none.
-int printed(int code) {
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-    throw mpipov::Failure(Exit::file,
-                          fmt::format("cannot write to standard output: {}", std::strerror(errno)));
 }
 
 int run(int argc, char** argv) {
@@ -63,7 +55,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         mpipov::block_interrupts();
-        return printed(run(argc, argv));
+        const int code = run(argc, argv);
+        mpipov::print_result("");  // what was printed until here must have arrived
+        return code;
     } catch (const mpipov::Failure& failure) {
         fmt::print(stderr, "mpipov-validate: {}\n", mpipov::plain_words(failure.what()));
         return finish(failure.code());

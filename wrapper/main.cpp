@@ -8,6 +8,7 @@
 #include "render_job.h"
 #include "scratch.h"
 #include "slots.h"
+#include "standard_output.h"
 
 #include <OpenImageIO/oiioversion.h>
 #include <fmt/format.h>
@@ -49,8 +50,8 @@ void print_versions(const std::string& povray) {
     } catch (const Failure& failure) {
         povray_line = fmt::format("none ({})", failure.what());
     }
-    fmt::print("mpipov {}\nPOV-Ray {}\n{}\nOpenImageIO {}\n", MPIPOV_VERSION, povray_line,
-               mpi_version(), OIIO_VERSION_STRING);
+    print_result(fmt::format("mpipov {}\nPOV-Ray {}\n{}\nOpenImageIO {}\n", MPIPOV_VERSION,
+                             povray_line, mpi_version(), OIIO_VERSION_STRING));
 }
 
 // This thread and every process that it starts. Where the kernel refuses, --slots is a wish.
@@ -150,8 +151,8 @@ void coordinate(const Options& options, const std::vector<std::string>& argument
 int run(const std::vector<std::string>& arguments, int rank) {
     const Options options = parse_options(arguments);
     if (options.help || options.version || options.manual) {
-        if (rank == 0 && options.help) fmt::print("{}", help_text());
-        if (rank == 0 && options.manual) fmt::print("{}", manual_page());
+        if (rank == 0 && options.help) print_result(help_text());
+        if (rank == 0 && options.manual) print_result(manual_page());
         if (rank == 0 && options.version) print_versions(options.povray);
         return 0;
     }

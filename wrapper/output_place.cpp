@@ -51,8 +51,10 @@ std::filesystem::path work_folder_beside(const std::filesystem::path& image) {
 OutputPlace::OutputPlace(std::filesystem::path image, std::filesystem::path record,
                          std::filesystem::path work_folder)
     : image_(std::move(image)), record_(std::move(record)), work_folder_(std::move(work_folder)) {
-    if (record_.empty()) record_ = image_.parent_path() / "run.json";
-    if (work_folder_.empty()) work_folder_ = work_folder_beside(image_);
+    // Not in /dev beside a device.
+    const std::filesystem::path beside = is_written_into(image_) ? image_.filename() : image_;
+    if (record_.empty()) record_ = beside.parent_path() / "run.json";
+    if (work_folder_.empty()) work_folder_ = work_folder_beside(beside);
 }
 
 void OutputPlace::check() const {

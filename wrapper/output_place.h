@@ -10,7 +10,7 @@ namespace mpipov {
 class OutputPlace {
   public:
     // Empty paths: run.json and `<image>.mpipov` beside the image, of an image with a very long
-    // name its first 248 bytes.
+    // name its first 248 bytes; in the current folder where the image is a pipe or a device.
     OutputPlace(std::filesystem::path image, std::filesystem::path record,
                 std::filesystem::path work_folder);
 

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -65,6 +66,18 @@ TEST_F(OutputPlaceTest, ABareNameMeansTheCurrentFolder) {
     const OutputPlace place("picture.png", {}, {});
     EXPECT_EQ(place.record(), "run.json");
     EXPECT_EQ(place.work_folder(), "picture.png.mpipov");
+}
+
+// A pipe of the test's own stands for /dev/null, beside which no other file belongs.
+TEST_F(OutputPlaceTest, NothingLiesBesideAPipe) {
+    const fs::path pipe = folder() / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const OutputPlace place(pipe, {}, {});
+    EXPECT_EQ(place.record(), "run.json");
+    EXPECT_EQ(place.work_folder(), "pipe.mpipov");
+    OutputPlace(pipe, pipe, folder() / "work").check();
+    EXPECT_THAT(files(), ElementsAre("pipe"));
+    EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
 TEST_F(OutputPlaceTest, GivenNamesAreKept) {

@@ -14,6 +14,7 @@
 #include "resume.h"
 #include "scene_plan.h"
 #include "scratch.h"
+#include "standard_output.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -222,7 +223,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     if (early && plan.takes_early) worker.adopt(0, std::move(early->launch));
     early.reset();
     if (options.dry_run) {
-        fmt::print("{}\n", to_json(plan.record).dump(2));
+        print_result(to_json(plan.record).dump(2) + '\n');
         return;
     }
     place.check();

@@ -1,5 +1,6 @@
 #include "run_record.h"
 
+#include "json_input.h"
 #include "part_file.h"
 
 #include <fmt/format.h>
@@ -23,8 +24,7 @@ json rect_json(const Rect& r) {
 }
 
 Rect rect_from(const json& j) {
-    return {j.at("x0").get<int>(), j.at("y0").get<int>(), j.at("x1").get<int>(),
-            j.at("y1").get<int>()};
+    return {member<int>(j, "x0"), member<int>(j, "y0"), member<int>(j, "x1"), member<int>(j, "y1")};
 }
 
 template <typename Enum>
@@ -55,9 +55,9 @@ json effects_json(const std::map<std::string, Effect>& effects) {
 std::map<std::string, Effect> effects_from(const json& j) {
     std::map<std::string, Effect> effects;
     for (const auto& [name, value] : j.items()) {
-        Effect effect{value.at("on").get<bool>(), value.at("why").get<std::string>(), {}};
-        if (!value.at("cpu_seconds").is_null())
-            effect.cpu_seconds = value.at("cpu_seconds").get<double>();
+        Effect effect{member<bool>(value, "on"), member<std::string>(value, "why"), {}};
+        if (!member(value, "cpu_seconds").is_null())
+            effect.cpu_seconds = member<double>(value, "cpu_seconds");
         effects.emplace(name, std::move(effect));
     }
     return effects;
@@ -79,15 +79,16 @@ json section_json(const SectionRecord& s) {
 
 SectionRecord section_from(const json& j) {
     SectionRecord s;
-    s.section = {j.at("id").get<int>(), rect_from(j.at("keep")), rect_from(j.at("render"))};
-    s.rank = j.at("rank").get<int>();
-    s.host = j.at("host").get<std::string>();
-    s.start = j.at("start").get<double>();
-    s.end = j.at("end").get<double>();
-    s.wall_seconds = j.at("wall_seconds").get<double>();
-    s.cpu_seconds = j.at("cpu_seconds").get<double>();
-    s.attempts = j.at("attempts").get<int>();
-    s.resumed = j.at("resumed").get<bool>();
+    s.section = {member<int>(j, "id"), rect_from(member(j, "keep")),
+                 rect_from(member(j, "render"))};
+    s.rank = member<int>(j, "rank");
+    s.host = member<std::string>(j, "host");
+    s.start = member<double>(j, "start");
+    s.end = member<double>(j, "end");
+    s.wall_seconds = member<double>(j, "wall_seconds");
+    s.cpu_seconds = member<double>(j, "cpu_seconds");
+    s.attempts = member<int>(j, "attempts");
+    s.resumed = member<bool>(j, "resumed");
     return s;
 }
 
@@ -106,13 +107,13 @@ json seam_json(const SeamRecord& s) {
 
 SeamRecord seam_from(const json& j) {
     SeamRecord s;
-    s.seam = {j.at("a").get<int>(),        j.at("b").get<int>(),    j.at("vertical").get<bool>(),
-              j.at("position").get<int>(), j.at("from").get<int>(), j.at("to").get<int>()};
-    s.checked = j.at("checked").get<bool>();
-    s.differing = j.at("differing").get<long long>();
-    const json& largest = j.at("max_difference");
+    s.seam = {member<int>(j, "a"),        member<int>(j, "b"),    member<bool>(j, "vertical"),
+              member<int>(j, "position"), member<int>(j, "from"), member<int>(j, "to")};
+    s.checked = member<bool>(j, "checked");
+    s.differing = member<long long>(j, "differing");
+    const json& largest = member(j, "max_difference");
     s.max_difference = largest.is_null() ? infinite : largest.get<double>();
-    s.halo = j.at("halo").get<int>();
+    s.halo = member<int>(j, "halo");
     return s;
 }
 
@@ -154,24 +155,24 @@ json to_json(const PlanRecord& plan) {
 
 PlanRecord plan_from_json(const json& j) {
     PlanRecord plan;
-    const json& image = j.at("image");
-    plan.image = {image.at("width").get<int>(), image.at("height").get<int>(),
-                  image.at("channels").get<int>(), image.at("type").get<std::string>(),
-                  image.at("depth").get<std::string>()};
-    plan.region = rect_from(j.at("region"));
-    plan.effects = effects_from(j.at("effects"));
-    const json& grid = j.at("grid");
-    plan.shape = shape_from(grid.at("shape"));
-    plan.seams = seams_from(grid.at("seams"));
-    plan.halo = grid.at("halo").get<int>();
-    plan.block = grid.at("block").get<int>();
-    plan.sections = grid.at("sections").get<int>();
+    const json& image = member(j, "image");
+    plan.image = {member<int>(image, "width"), member<int>(image, "height"),
+                  member<int>(image, "channels"), member<std::string>(image, "type"),
+                  member<std::string>(image, "depth")};
+    plan.region = rect_from(member(j, "region"));
+    plan.effects = effects_from(member(j, "effects"));
+    const json& grid = member(j, "grid");
+    plan.shape = shape_from(member(grid, "shape"));
+    plan.seams = seams_from(member(grid, "seams"));
+    plan.halo = member<int>(grid, "halo");
+    plan.block = member<int>(grid, "block");
+    plan.sections = member<int>(grid, "sections");
     for (const json& cut : grid.value("cuts", json::array())) plan.cuts.push_back(rect_from(cut));
-    plan.schedule = j.at("schedule").get<std::string>();
-    plan.threads = j.at("threads").get<int>();
-    plan.in_flight = j.at("in_flight").get<int>();
-    plan.predicted = {j.at("predicted").at("wall_seconds").get<double>(),
-                      j.at("predicted").at("cpu_seconds").get<double>()};
+    plan.schedule = member<std::string>(j, "schedule");
+    plan.threads = member<int>(j, "threads");
+    plan.in_flight = member<int>(j, "in_flight");
+    plan.predicted = {member<double>(member(j, "predicted"), "wall_seconds"),
+                      member<double>(member(j, "predicted"), "cpu_seconds")};
     return plan;
 }
 
@@ -220,36 +221,36 @@ json to_json(const RunRecord& record) {
 
 RunRecord run_from_json(const json& j) {
     try {
-        if (j.at("format") != "mpipov-run" || j.at("version") != format_version)
+        if (member(j, "format") != "mpipov-run" || member(j, "version") != format_version)
             throw std::runtime_error(
                 fmt::format("not an mpipov-run record of version {}", format_version));
         RunRecord record;
-        record.complete = j.at("complete").get<bool>();
-        record.versions = j.at("versions").get<std::map<std::string, std::string>>();
-        record.command = j.at("command").get<std::vector<std::string>>();
-        record.started = j.at("started").get<std::string>();
-        record.output = j.at("output").at("file").get<std::string>();
+        record.complete = member<bool>(j, "complete");
+        record.versions = member<std::map<std::string, std::string>>(j, "versions");
+        record.command = member<std::vector<std::string>>(j, "command");
+        record.started = member<std::string>(j, "started");
+        record.output = member<std::string>(member(j, "output"), "file");
         record.scene_sha1 = j.value("scene_sha1", std::string());
-        record.pixel_sha1 = j.at("output").at("pixel_sha1").get<std::string>();
-        record.plan = plan_from_json(j.at("plan"));
-        for (const json& r : j.at("ranks"))
-            record.ranks.push_back({r.at("rank").get<int>(), r.at("host").get<std::string>(),
-                                    r.at("slots").get<int>(), r.at("sections").get<int>(),
-                                    r.at("busy_seconds").get<double>()});
-        for (const json& s : j.at("sections")) record.sections.push_back(section_from(s));
-        for (const json& s : j.at("seams")) record.seams.push_back(seam_from(s));
-        for (const json& s : j.at("repairs")) record.repairs.push_back(section_from(s));
-        const json& totals = j.at("totals");
-        record.totals = {totals.at("wall_seconds").get<double>(),
-                         totals.at("cpu_seconds").get<double>(),
-                         totals.at("coordinator_cpu_seconds").get<double>(),
-                         totals.at("launches").get<int>(),
-                         totals.at("retries").get<int>(),
+        record.pixel_sha1 = member<std::string>(member(j, "output"), "pixel_sha1");
+        record.plan = plan_from_json(member(j, "plan"));
+        for (const json& r : member(j, "ranks"))
+            record.ranks.push_back({member<int>(r, "rank"), member<std::string>(r, "host"),
+                                    member<int>(r, "slots"), member<int>(r, "sections"),
+                                    member<double>(r, "busy_seconds")});
+        for (const json& s : member(j, "sections")) record.sections.push_back(section_from(s));
+        for (const json& s : member(j, "seams")) record.seams.push_back(seam_from(s));
+        for (const json& s : member(j, "repairs")) record.repairs.push_back(section_from(s));
+        const json& totals = member(j, "totals");
+        record.totals = {member<double>(totals, "wall_seconds"),
+                         member<double>(totals, "cpu_seconds"),
+                         member<double>(totals, "coordinator_cpu_seconds"),
+                         member<int>(totals, "launches"),
+                         member<int>(totals, "retries"),
                          totals.value("copies", 0)};
-        record.warnings = j.at("warnings").get<std::vector<std::string>>();
+        record.warnings = member<std::vector<std::string>>(j, "warnings");
         return record;
     } catch (const json::exception& error) {
-        throw std::runtime_error(fmt::format("not a run record: {}", error.what()));
+        throw std::runtime_error(fmt::format("not a run record: {}", plain_words(error.what())));
     }
 }
 
@@ -259,18 +260,13 @@ RunRecord read_run_record(const std::filesystem::path& file) {
     try {
         return run_from_json(json::parse(in));
     } catch (const std::exception& error) {
-        throw std::runtime_error(fmt::format("cannot read '{}': {}", file.string(), error.what()));
+        throw std::runtime_error(
+            fmt::format("cannot read '{}': {}", file.string(), plain_words(error.what())));
     }
 }
 
 void write_run_record(const std::filesystem::path& file, const RunRecord& record) {
-    PartFile part(file);
-    {
-        std::ofstream out(part.path());
-        out << to_json(record).dump(2, ' ', false, json::error_handler_t::replace) << '\n';
-        if (!out.flush()) throw std::runtime_error(fmt::format("cannot write '{}'", file.string()));
-    }
-    part.take_place();
+    write_whole(file, to_json(record).dump(2, ' ', false, json::error_handler_t::replace) + '\n');
 }
 
 }  // namespace mpipov

@@ -77,6 +77,30 @@ TEST(RunRecord, NamesWhatIsMissing) {
     }
 }
 
+TEST(RunRecord, NamesWhatIsOfAnotherKind) {
+    nlohmann::json json = to_json(sample_record());
+    json["totals"]["launches"] = "many";
+    try {
+        run_from_json(json);
+        FAIL() << "accepted words for a number";
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "its 'launches': type must be number, but is string");
+    }
+}
+
+TEST(RunRecord, WhatIsNoJsonIsToldWithoutTheLibrarysIds) {
+    const ScratchFolder scratch("record-test");
+    const std::filesystem::path file = scratch.path() / "run.json";
+    std::ofstream(file) << "{";
+    try {
+        read_run_record(file);
+        FAIL();
+    } catch (const std::runtime_error& error) {
+        EXPECT_EQ(std::string(error.what()).find("json.exception"), std::string::npos)
+            << error.what();
+    }
+}
+
 TEST(RunRecord, RefusesAnotherFormatAndTextThatIsNoJson) {
     EXPECT_THROW(run_from_json({{"format", "else"}, {"version", 1}}), std::runtime_error);
     const std::filesystem::path file =
