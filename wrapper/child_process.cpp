@@ -17,6 +17,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <ctime>
 #include <stdexcept>
 #include <system_error>
 
@@ -66,6 +67,9 @@ class ChildProcess::State {
     int wait_milliseconds() const;
     int pid() const { return pid_; }
     std::string_view output() { return text_.view(); }
+    double wall_seconds() const { return ended_ ? result_.wall_seconds : elapsed(); }
+    double cpu_seconds() const;
+    bool has_file_open() const;
     void terminate();
     void kill_now();
     const ChildResult& result() const { return result_; }
@@ -183,6 +187,26 @@ void ChildProcess::State::sample_memory() {
     sampled_peak_ = std::max(sampled_peak_, peak_memory(std::to_string(pid_)));
 }
 
+double ChildProcess::State::cpu_seconds() const {
+    if (ended_) return result_.cpu_seconds;
+    clockid_t clock{};
+    timespec spent{};
+    if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &spent) != 0) return 0;
+    return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
+}
+
+bool ChildProcess::State::has_file_open() const {
+    if (ended_) return false;
+    std::error_code error;
+    const std::filesystem::directory_iterator open("/proc/" + std::to_string(pid_) + "/fd", error);
+    if (error) return true;
+    return std::any_of(begin(open), end(open), [](const auto& file) {
+        std::error_code ignored;  // one that was closed meanwhile
+        return std::filesystem::status(file.path(), ignored).type() ==
+               std::filesystem::file_type::regular;
+    });
+}
+
 void ChildProcess::State::begin_termination() {
     if (kill_at_) return;
     kill_at_ = elapsed() + grace_;
@@ -270,6 +294,15 @@ int ChildProcess::wait_milliseconds() const {
 }
 int ChildProcess::pid() const {
     return state_->pid();
+}
+double ChildProcess::wall_seconds() const {
+    return state_->wall_seconds();
+}
+double ChildProcess::cpu_seconds() const {
+    return state_->cpu_seconds();
+}
+bool ChildProcess::has_file_open() const {
+    return state_->has_file_open();
 }
 std::string_view ChildProcess::output() const {
     return state_->output();

@@ -80,6 +80,12 @@ class ChildProcess {
 
     int pid() const;  // also the number of its process group
 
+    // So far, and after its end as in the result. CPU of the child alone, not of what it started.
+    double wall_seconds() const;
+    double cpu_seconds() const;
+    // A regular file, for reading or writing; true too where the kernel does not tell.
+    bool has_file_open() const;
+
     // stdout and stderr so far, in the order written. Of more than capture_limit bytes the first
     // and the last half are kept, and a line between them says so. Valid until the next poll().
     std::string_view output() const;

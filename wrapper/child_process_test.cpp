@@ -1,5 +1,7 @@
 #include "child_process.h"
 
+#include "scratch.h"
+
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -73,25 +75,6 @@ class ChildProcessTest : public testing::Test {
         }));
         return std::atoi(std::string(child.output()).c_str());
     }
-};
-
-class ScratchFolder {
-  public:
-    ScratchFolder() {
-        std::string name = (fs::temp_directory_path() / "child-process-test-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no scratch folder");
-        path_ = fs::canonical(name);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    ~ScratchFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
 };
 
 TEST_F(ChildProcessTest, MergesBothStreamsInOrder) {
@@ -245,7 +228,7 @@ TEST_F(ChildProcessTest, EnvironmentIsAddedAndReplaced) {
 }
 
 TEST_F(ChildProcessTest, RunsInItsWorkingDirectory) {
-    const ScratchFolder folder;
+    const ScratchFolder folder("child-test");
     ChildRequest request = shell("pwd -P");
     request.working_directory = folder.path();
     std::string output;
@@ -254,7 +237,7 @@ TEST_F(ChildProcessTest, RunsInItsWorkingDirectory) {
 }
 
 TEST_F(ChildProcessTest, AProgramGivenAsAFileIsSeenFromOurFolder) {
-    const ScratchFolder folder;
+    const ScratchFolder folder("child-test");
     ChildRequest request;
     request.argv = {fs::relative("/bin/sh").string(), "-c", "echo here"};
     ASSERT_THAT(request.argv[0], HasSubstr("/"));
@@ -415,7 +398,7 @@ TEST_F(ChildProcessTest, MemoryLimitHolds) {
 }
 
 TEST_F(ChildProcessTest, FileSizeLimitHolds) {
-    const ScratchFolder folder;
+    const ScratchFolder folder("child-test");
     ChildRequest request;
     request.argv = {"dd", "if=/dev/zero", "of=big", "bs=4096", "count=10"};
     request.working_directory = folder.path();
@@ -432,6 +415,26 @@ TEST_F(ChildProcessTest, CpuSecondsCountTheChildAndWhatItWaitedFor) {
         const ChildResult result = run_to_end(shell(script));
         EXPECT_GT(result.cpu_seconds, 0.05) << script;
         EXPECT_LE(result.cpu_seconds, result.wall_seconds * 1.1 + 0.05) << script;
+    }
+}
+
+TEST_F(ChildProcessTest, TellsOfARunningChildWhatItSpentAndWhetherAFileIsOpen) {
+    const ScratchFolder folder("child-test");
+    const std::string file = (folder.path() / "file").string();
+    const std::string spin = "i=0; while [ $i -lt 20000 ]; do i=$((i+1)); done; ";
+    for (const bool open : {true, false}) {
+        ChildProcess child = ChildProcess::start(
+            shell(spin + (open ? "exec 3>'" + file + "'; " : "") + "echo ready; exec sleep 1000"));
+        ASSERT_TRUE(wait_until([&] { return child.poll() || child.output() == "ready\n"; }));
+        EXPECT_FALSE(child.ended());
+        EXPECT_EQ(child.has_file_open(), open);
+        EXPECT_GT(child.cpu_seconds(), 0.001);
+        EXPECT_GE(child.wall_seconds(), child.cpu_seconds());
+        child.kill_now();
+        ASSERT_TRUE(wait_until([&] { return child.poll(); }));
+        EXPECT_FALSE(child.has_file_open());
+        EXPECT_EQ(child.cpu_seconds(), child.result().cpu_seconds);
+        EXPECT_EQ(child.wall_seconds(), child.result().wall_seconds);
     }
 }
 

@@ -1,5 +1,5 @@
 // The whole image in one launch, started together with the probe: a render that takes about as long
-// as POV-Ray's start-up (0.7 s) would else pay that twice. Where the plan then is one launch of so
+// as POV-Ray's start-up would else pay that twice. Where the plan then is one launch of so
 // many threads, rank 0's worker takes it; else it is stopped, having spent little more than its
 // idle start-up.
 #pragma once

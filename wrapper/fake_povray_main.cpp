@@ -10,6 +10,8 @@
 //   truncated  writes the first half of the file
 //   wrong-size writes a frame of one more row
 //   slow       first prints progress, 20 times within a second
+//   linger     has done its work, and sleeps for ever
+//   late-error closes a file that is cut short, then says that the disk is full, ends with 1
 //   copy       writes a copy of the file that FAKE_POVRAY_COPY names
 // FAKE_POVRAY_ONCE names a file: where it can be made, the fault happens, else it does not.
 // FAKE_POVRAY_COLUMN: the fault happens only where the section's +SC is this one.
@@ -104,6 +106,11 @@ void print_progress() {
     std::cerr << '\n';
 }
 
+constexpr const char* statistics =
+    "Render Time:\n  Photon Time:      No photons\n  Radiosity Time:   No radiosity\n"
+    "  Trace Time:       0 hours  0 minutes  0 seconds (0.001 seconds)\n"
+    "              using 1 thread(s) with 0.001 CPU-seconds total\n";
+
 int run(const Job& job) {
     const std::string faults = fault_is_due(job) ? environment("FAKE_POVRAY") : "";
     const auto has = [&](std::string_view fault) {
@@ -129,11 +136,21 @@ int run(const Job& job) {
         std::filesystem::copy_file(from, job.base + from.extension().string());
         return 0;
     }
+    const bool cut_short = has("truncated") || has("late-error");
     const std::string text = frame(job, job.height + (has("wrong-size") ? 1 : 0));
     std::ofstream out(job.base + ".ppm", std::ios::binary);
-    out << text.substr(0, has("truncated") ? text.size() / 2 : text.size());
+    out << text.substr(0, cut_short ? text.size() / 2 : text.size());
+    out.close();
+    std::cerr << statistics << std::flush;
+    if (has("linger"))
+        for (;;) ::pause();
+    if (has("late-error")) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        std::cerr << "Fatal error in renderer: Cannot write file: No space left\nRender failed\n";
+        return 1;
+    }
     std::cerr << "POV-Ray finished\n";
-    return out.flush() ? 0 : 1;
+    return out ? 0 : 1;
 }
 
 }  // namespace

@@ -28,6 +28,14 @@ const ImageLibrary& image_library() {
     return library;
 }
 
+LoadingImageLibrary::LoadingImageLibrary()
+    : thread_([] {
+          try {
+              image_library();
+          } catch (const std::runtime_error&) {  // the next to ask tries again
+          }
+      }) {}
+
 void write_image(const Canvas& canvas, const FileStyle& style, const std::filesystem::path& file) {
     image_library().write_image(canvas, style, file);
 }

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <thread>
 
 namespace mpipov {
 
@@ -25,5 +26,15 @@ class ImageLibrary {
 
 // Throws std::runtime_error where it cannot be found or loaded.
 const ImageLibrary& image_library();
+
+// Loads it on a thread of its own, which this waits for at its end: for whom will need it, while
+// POV-Ray sleeps through its start. What goes wrong is told to who needs it.
+class LoadingImageLibrary {
+  public:
+    LoadingImageLibrary();
+
+  private:
+    std::jthread thread_;
+};
 
 }  // namespace mpipov

@@ -2,6 +2,7 @@
 
 #include "journal.h"
 #include "scene_files.h"
+#include "sha1_digits.h"
 
 #include <OpenImageIO/hash.h>
 #include <fmt/format.h>
@@ -98,7 +99,8 @@ json job_identity(const Probe& probe, const std::vector<std::string>& arguments,
 
 std::string scene_sha1(const json& identity) {
     const std::string files = identity.at(files_key).dump();
-    return OIIO::SHA1(files.data(), files.size()).digest();
+    OIIO::SHA1 sha(files.data(), files.size());
+    return sha1_digits(sha);
 }
 
 std::string what_changed(const json& earlier, const json& now) {

@@ -196,6 +196,12 @@ LaunchReport parse_report(std::string_view text) {
     return report;
 }
 
+bool statistics_are_printed(std::string_view text) {
+    const std::size_t last = text.rfind("\n  Trace Time:");
+    return last != std::string_view::npos &&
+           text.find(" CPU-seconds total\n", last) != std::string_view::npos;
+}
+
 std::optional<double> parse_progress(std::string_view text) {
     static const std::regex shape(R"(^Rendered (\d+) of (\d+) pixels)");
     // The very last one may still be on its way.

@@ -52,6 +52,9 @@ struct LaunchReport {
 };
 LaunchReport parse_report(std::string_view text);
 
+// True once a launch has printed all of its statistics, the last thing that it prints of its work.
+bool statistics_are_printed(std::string_view text);
+
 // The last "Rendered N of M pixels" as a fraction, where there is one.
 std::optional<double> parse_progress(std::string_view text);
 

@@ -324,5 +324,19 @@ TEST(PovrayText, CutTextsDoNoHarm) {
     }
 }
 
+TEST(StatisticsArePrinted, OnceTheirLastLineIsWhole) {
+    const std::string whole = recorded("plain");
+    ASSERT_TRUE(statistics_are_printed(whole));
+    const std::string last = " CPU-seconds total\n";
+    const std::size_t end = whole.rfind(last);
+    ASSERT_NE(end, std::string::npos);
+    EXPECT_TRUE(statistics_are_printed(whole.substr(0, end + last.size())));
+    // The times of parsing end in the same words.
+    for (std::size_t cut = 1; cut < 600; cut += 7)
+        EXPECT_FALSE(statistics_are_printed(whole.substr(0, end + last.size() - cut))) << cut;
+    EXPECT_FALSE(statistics_are_printed(""));
+    EXPECT_FALSE(statistics_are_printed(recorded("syntax_error")));
+}
+
 }  // namespace
 }  // namespace mpipov

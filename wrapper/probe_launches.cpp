@@ -20,6 +20,7 @@
 namespace mpipov {
 namespace {
 
+constexpr const char* image_name = "probe";
 constexpr const char* stop_text = "mpipov has seen what it needs";
 // The small render's longest side: large enough to meet what is in the picture, small enough to
 // cost about half a percent of it.
@@ -89,8 +90,7 @@ ProbeLaunches::ProbeLaunches(const ProbeRequest& request) : request_(request) {
 
 void ProbeLaunches::render(const ProbeView& view) {
     for (std::size_t i = 1; i < launches_.size(); ++i)
-        if (launches_[i].child.ended())
-            earlier_cpu_seconds_ += launches_[i].child.result().cpu_seconds;
+        earlier_cpu_seconds_ += launches_[i].child.cpu_seconds();
     launches_.erase(std::next(launches_.begin()), launches_.end());
     std::vector<std::string> arguments = {fmt::format("+W{}", view.size.width),
                                           fmt::format("+H{}", view.size.height),
@@ -111,24 +111,27 @@ void ProbeLaunches::render(const ProbeView& view) {
 void ProbeLaunches::wait() {
     for (;;) {
         throw_if_interrupted();
-        bool running = false;
-        for (Launch& launch : launches_) {
-            if (launch.child.poll()) continue;
-            running = true;
-            // The first one is of no more use once it has met our header.
-            if (&launch == launches_.data() && !launch.stopped &&
-                met_our_header(launch.child.output())) {
-                launch.child.kill_now();
-                launch.stopped = true;
-            }
+        Launch& resolve = launches_.front();
+        // It is of no more use once it has met our header.
+        if (!resolve.over() && !resolve.child.poll() && met_our_header(resolve.child.output())) {
+            resolve.child.kill_now();
+            resolve.enough = true;
+        }
+        bool running = !resolve.over();
+        for (std::size_t i = 1; i < launches_.size(); ++i) {
+            look_after(launches_[i]);
+            running = running || !launches_[i].over();
         }
         if (!running) return;
-        const ChildProcess& resolve = launches_.front().child;
-        if (resolve.ended() && !resolved()) return;
-        if (resolve.ended() && launches_.size() > 1 && launches_[1].child.ended() && !rendered())
-            return;
+        if (resolve.over() && !resolved()) return;
+        if (resolve.over() && launches_.size() > 1 && launches_[1].over() && !rendered()) return;
         sleep();
     }
+}
+
+void ProbeLaunches::look_after(Launch& launch) {
+    if (launch.over() || launch.child.poll()) return;
+    launch.enough = launch.end.seen(launch.child, launch.folder / image_name);
 }
 
 bool ProbeLaunches::resolved() const {
@@ -144,16 +147,6 @@ std::filesystem::path ProbeLaunches::settings_file() const {
     return request_.scratch / "settings.ini";
 }
 
-bool ProbeLaunches::rendered() const {
-    const ChildProcess& child = launches_.at(1).child;
-    return child.ended() && child.result().exit_code == 0;
-}
-
-bool ProbeLaunches::timed_out() const {
-    const ChildProcess& child = launches_.at(1).child;
-    return child.ended() && child.result().timed_out;
-}
-
 std::filesystem::path ProbeLaunches::sample() const {
     return image_of(launches_.at(1));
 }
@@ -166,8 +159,7 @@ std::vector<std::filesystem::path> ProbeLaunches::in_other_orders() const {
 
 double ProbeLaunches::cpu_seconds() const {
     double sum = earlier_cpu_seconds_;
-    for (const Launch& launch : launches_)
-        if (launch.child.ended()) sum += launch.child.result().cpu_seconds;
+    for (const Launch& launch : launches_) sum += launch.child.cpu_seconds();
     return sum;
 }
 
@@ -182,25 +174,30 @@ void ProbeLaunches::start(const std::string& name, const std::vector<std::string
         child.argv.emplace_back(ours);
     // The first launch is asked for the user's own output file; it never comes to write one.
     if (!launches_.empty())
-        child.argv.push_back(fmt::format("+O\"{}\"", (folder / "probe").string()));
+        child.argv.push_back(fmt::format("+O\"{}\"", (folder / image_name).string()));
     child.timeout_seconds = request_.timeout_seconds;
-    launches_.push_back({folder, ChildProcess::start(child)});
+    launches_.push_back({folder, ChildProcess::start(child), {}});
     ++started_;
 }
 
 std::filesystem::path ProbeLaunches::image_of(const Launch& launch) {
-    if (!launch.child.ended() || launch.child.result().exit_code != 0)
+    if (!launch.succeeded())
         throw Failure(Exit::scene,
-                      launch.child.ended() && launch.child.result().timed_out
+                      launch.timed_out()
                           ? "POV-Ray did not end a small render in time (--timeout)"
                           : fmt::format("POV-Ray: {}", parse_error(launch.child.output())));
-    return find_image(launch.folder / "probe");
+    return find_image(launch.folder / image_name);
 }
 
 void ProbeLaunches::sleep() const {
     std::vector<pollfd> fds;
-    for (const Launch& launch : launches_) launch.child.add_poll_fds(fds);
-    ::poll(fds.data(), fds.size(), 50);
+    int wait = 50;
+    for (const Launch& launch : launches_) {
+        if (launch.over()) continue;
+        launch.child.add_poll_fds(fds);
+        if (launch.end.near()) wait = near_end_milliseconds;
+    }
+    ::poll(fds.data(), fds.size(), wait);
 }
 
 }  // namespace mpipov

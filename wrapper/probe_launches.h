@@ -2,6 +2,7 @@
 #pragma once
 
 #include "child_process.h"
+#include "end_of_work.h"
 #include "povray_command.h"
 
 #include <filesystem>
@@ -37,7 +38,7 @@ class ProbeLaunches {
     // Starts the renders of one view, instead of those of an earlier one.
     void render(const ProbeView& view);
 
-    // Until all have ended, or one has failed. Throws Failure(Exit::interrupted).
+    // Until all have done their work, or one has failed. Throws Failure(Exit::interrupted).
     void wait();
 
     // The text of the launch that resolves; whether it came as far as the scene's first line.
@@ -47,8 +48,8 @@ class ProbeLaunches {
     std::filesystem::path settings_file() const;
 
     // Of the render in POV-Ray's own order.
-    bool rendered() const;
-    bool timed_out() const;
+    bool rendered() const { return launches_.at(1).succeeded(); }
+    bool timed_out() const { return launches_.at(1).timed_out(); }
     std::string_view render_output() const { return launches_.at(1).child.output(); }
 
     // The files. Throw Failure(Exit::scene), saying why, where there is none.
@@ -62,9 +63,17 @@ class ProbeLaunches {
     struct Launch {
         std::filesystem::path folder;
         ChildProcess child;
-        bool stopped = false;
+        EndOfWork end;
+        bool enough = false;  // stopped by us, or has done its work; it may not have ended
+
+        bool over() const { return enough || child.ended(); }
+        bool succeeded() const {
+            return enough || (child.ended() && child.result().exit_code == 0);
+        }
+        bool timed_out() const { return child.ended() && child.result().timed_out; }
     };
     void start(const std::string& name, const std::vector<std::string>& more);
+    static void look_after(Launch& launch);
     static std::filesystem::path image_of(const Launch& launch);
     void sleep() const;
 

@@ -6,6 +6,7 @@
 #include "early_render.h"
 #include "event_loop.h"
 #include "failure.h"
+#include "image_library.h"
 #include "interrupt.h"
 #include "job_identity.h"
 #include "output_place.h"
@@ -97,6 +98,14 @@ PlanRequest plan_request(const Options& options, const MetRanks& met, int early_
     return request;
 }
 
+Plan checked_plan(const PlanRequest& request, const ProbeResult& probe) {
+    try {
+        return make_plan(request, probe);
+    } catch (const std::invalid_argument& error) {
+        throw Failure(Exit::usage, error.what());
+    }
+}
+
 JobCommand job_command(const Options& options, const std::vector<std::string>& arguments,
                        const Probe& probe, const Plan& plan) {
     JobCommand job;
@@ -164,6 +173,7 @@ std::optional<CostMap> find_costs(const JobSetup& setup, const std::vector<std::
     if (auto costs = costs_of_earlier_run(place.record(), record.scene_sha1, probe.result))
         return costs;
     if (make_cost_model(probe.result).render < least_render_to_look_at) return {};
+    if (!probe.result.seen_whole) return {};  // its parts refuse to be small too
     PartCosts parts = costs_of_small_parts(
         {options.povray, arguments, scratch, options.timeout_seconds}, probe.result);
     record.totals.cpu_seconds += parts.cpu_seconds;
@@ -195,6 +205,8 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     const ScratchFolder scratch("probe");
     std::optional<EarlyRender> early =
         start_early(setup, transport.size(), arguments, scratch.path() / "early");
+    std::optional<LoadingImageLibrary> loading;
+    if (!options.dry_run) loading.emplace();
     const Probe probe =
         run_probe({options.povray, arguments, scratch.path() / "probe", options.timeout_seconds});
     const std::string& povray = probe.povray;
@@ -209,16 +221,13 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     const nlohmann::json identity = job_identity(probe, arguments, povray);
     record.scene_sha1 = scene_sha1(identity);
     PlanRequest request = plan_request(options, met, early ? early->threads : 0);
-    if (options.schedule == Policy::cost) {
+    Plan plan = checked_plan(request, probe.result);
+    // One launch has no parts to weigh against each other.
+    if (options.schedule == Policy::cost && !plan.takes_early) {
         early.reset();
         request.early_threads = 0;
         request.costs = find_costs(setup, arguments, probe, place, scratch.path(), record);
-    }
-    Plan plan;
-    try {
-        plan = make_plan(request, probe.result);
-    } catch (const std::invalid_argument& error) {
-        throw Failure(Exit::usage, error.what());
+        plan = checked_plan(request, probe.result);
     }
     if (early && plan.takes_early) worker.adopt(0, std::move(early->launch));
     early.reset();

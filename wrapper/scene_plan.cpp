@@ -132,7 +132,8 @@ int launches_per_lane(const CostModel& cost, const Choice& choice, int all_lanes
     if (choice.sections <= all_lanes) return 1;
     const double busy =
         std::max(0.02, cost.render / choice.sections / choice.threads + cost.per_launch);
-    return 1 + clamp_to(std::llround(std::ceil(cost.startup_wall / busy)), 1, 3);
+    constexpr int most_idle = 7;  // 16 trivial launches on a core: 8 at once are fastest
+    return 1 + clamp_to(std::llround(std::ceil(cost.startup_wall / busy)), 1, most_idle);
 }
 
 // What there is to render with.

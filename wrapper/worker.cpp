@@ -29,7 +29,7 @@ std::string describe_end(const ChildProcess& child) {
 
 }  // namespace
 
-std::filesystem::path find_image(const std::filesystem::path& base) {
+std::optional<std::filesystem::path> look_for_image(const std::filesystem::path& base) {
     const std::string name = base.filename();
     for (const auto& entry : std::filesystem::directory_iterator(base.parent_path())) {
         const std::string stem = entry.path().stem();
@@ -39,6 +39,11 @@ std::filesystem::path find_image(const std::filesystem::path& base) {
             entry.path().extension() != ".pov-state")
             return entry.path();
     }
+    return {};
+}
+
+std::filesystem::path find_image(const std::filesystem::path& base) {
+    if (auto image = look_for_image(base)) return *std::move(image);
     throw std::runtime_error("POV-Ray wrote no image");
 }
 
@@ -75,8 +80,15 @@ void Worker::start(const Message& message) {
     const int attempt = message.head.at("attempt");
     try {
         PreparedLaunch prepared = launch(section, attempt);
-        launches_.push_back({section, attempt, std::move(prepared.folder),
-                             std::move(prepared.child), std::nullopt, 0, false});
+        launches_.push_back({section,
+                             attempt,
+                             std::move(prepared.folder),
+                             std::move(prepared.child),
+                             {},
+                             std::nullopt,
+                             {},
+                             0,
+                             false});
     } catch (const std::exception& error) {
         transport_.send({MessageKind::failed,
                          coordinator,
@@ -116,22 +128,37 @@ bool Worker::step() {
     for (auto it = launches_.begin(); it != launches_.end();) {
         const State state = step(*it);
         busy = busy || state != State::idle;
+        if (state == State::over && !it->child.ended())
+            leaving_.push_back({std::move(it->folder), std::move(it->child)});
         it = state == State::over ? launches_.erase(it) : std::next(it);
     }
+    leaving_.remove_if([](PreparedLaunch& launch) { return launch.child.poll(); });
     return busy;
 }
 
 Worker::State Worker::step(Launch& launch) {
     try {
         if (launch.cancelled) return end_cancelled(launch);
+        if (!launch.broken.empty()) return end_broken(launch);
         if (launch.reader) return send_bands(launch);
-        if (launch.child.poll()) return begin_reading(launch);
+        if (launch.child.poll() ||
+            launch.end.seen(launch.child, launch.folder.path() / section_image_name))
+            return begin_reading(launch);
         send_progress(launch);
         return State::idle;
     } catch (const std::exception& error) {
-        send_failure(launch, error.what());
-        return State::over;
+        launch.broken = error.what();
+        launch.reader.reset();
+        return end_broken(launch);
     }
+}
+
+// Where POV-Ray could not write its image it has not said so yet, and knows better why.
+Worker::State Worker::end_broken(Launch& launch) {
+    if (!launch.child.poll()) return State::idle;
+    send_failure(launch,
+                 launch.child.result().exit_code == 0 ? launch.broken : describe_end(launch.child));
+    return State::over;
 }
 
 // Nothing where it has ended meanwhile: the coordinator has heard of that.
@@ -153,8 +180,7 @@ Worker::State Worker::end_cancelled(Launch& launch) {
 }
 
 Worker::State Worker::begin_reading(Launch& launch) {
-    const ChildResult& result = launch.child.result();
-    if (result.exit_code != 0) {
+    if (launch.child.ended() && launch.child.result().exit_code != 0) {
         send_failure(launch, describe_end(launch.child));
         return State::over;
     }
@@ -172,10 +198,9 @@ Worker::State Worker::send_bands(Launch& launch) {
         transport_.send({MessageKind::band, coordinator, std::move(head), std::move(band->pixels)});
         return State::busy;
     }
-    const ChildResult& result = launch.child.result();
     nlohmann::json head = head_of(launch);
-    head["wall_seconds"] = result.wall_seconds;
-    head["cpu_seconds"] = result.cpu_seconds;
+    head["wall_seconds"] = launch.child.wall_seconds();
+    head["cpu_seconds"] = launch.child.cpu_seconds();
     head["warnings"] = parse_warnings(launch.child.output());
     transport_.send({MessageKind::done, coordinator, std::move(head), {}});
     return State::over;
@@ -202,12 +227,15 @@ void Worker::add_poll_fds(std::vector<pollfd>& fds) const {
     for (const Launch& launch : launches_) {
         if (!launch.reader) launch.child.add_poll_fds(fds);
     }
+    for (const PreparedLaunch& launch : leaving_) launch.child.add_poll_fds(fds);
 }
 
 int Worker::wait_milliseconds(int at_most) const {
     int wait = at_most;
-    for (const Launch& launch : launches_)
+    for (const Launch& launch : launches_) {
         wait = launch.reader ? std::min(wait, 1) : std::min(wait, launch.child.wait_milliseconds());
+        if (launch.end.near()) wait = std::min(wait, near_end_milliseconds);
+    }
     return std::max(wait, 0);
 }
 
@@ -215,7 +243,9 @@ void Worker::stop() {
     stopped_ = true;
     // First all of them, so that they end side by side; then ~ChildProcess waits for each.
     for (Launch& launch : launches_) launch.child.kill_now();
+    for (PreparedLaunch& launch : leaving_) launch.child.kill_now();
     launches_.clear();
+    leaving_.clear();
     adopted_.reset();
 }
 

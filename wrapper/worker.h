@@ -3,6 +3,7 @@
 #pragma once
 
 #include "child_process.h"
+#include "end_of_work.h"
 #include "image_file.h"
 #include "povray_command.h"
 #include "prepared_launch.h"
@@ -47,7 +48,9 @@ class Worker {
         int attempt = 0;
         LaunchFolder folder;  // before the child, which must be gone when it is removed
         ChildProcess child;
-        std::optional<SectionReader> reader;  // once POV-Ray has ended
+        EndOfWork end;
+        std::optional<SectionReader> reader;  // once POV-Ray has done its work
+        std::string broken;                   // why its image could not be read; it has not ended
         double last_fraction = 0;
         bool cancelled = false;  // another rank was first
     };
@@ -59,6 +62,7 @@ class Worker {
     void cancel(const Message& message);
     State end_cancelled(Launch& launch);
     State begin_reading(Launch& launch);
+    State end_broken(Launch& launch);
     State send_bands(Launch& launch);
     void send_progress(Launch& launch);
     void send_failure(const Launch& launch, const std::string& why);
@@ -70,6 +74,7 @@ class Worker {
     ImageSize image_;
     std::optional<double> timeout_seconds_;
     std::list<Launch> launches_;
+    std::list<PreparedLaunch> leaving_;  // have done their work, and sleep before they end
     std::optional<PreparedLaunch> adopted_;
     int adopted_for_ = -1;  // section
     bool stopped_ = false;
@@ -82,5 +87,7 @@ constexpr const char* section_image_name = "section";
 // (and the number of a frame), and may put files of other names beside it (+GA). Throws
 // std::runtime_error where there is none.
 std::filesystem::path find_image(const std::filesystem::path& base);
+// The same; nothing where there is none.
+std::optional<std::filesystem::path> look_for_image(const std::filesystem::path& base);
 
 }  // namespace mpipov

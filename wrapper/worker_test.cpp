@@ -124,6 +124,28 @@ void expect_known_bands(const std::vector<Message>& bands, const Rect& render) {
     EXPECT_EQ(row, render.y1);
 }
 
+// POV-Ray sleeps for 0.3 s then, and the stand-in for ever.
+TEST_F(WorkerTest, DoesNotWaitForAPovrayThatHasDoneItsWork) {
+    const Environment lingering = faults("linger");
+    send_job();
+    for (const int section : {0, 1}) {
+        assign(section, {0, 0, 64, 48});
+        const std::vector<Message> heard = listen();
+        expect_known_bands(of_kind(heard, MessageKind::band), {0, 0, 64, 48});
+        EXPECT_EQ(heard.back().kind, MessageKind::done);
+        EXPECT_GT(heard.back().head.at("wall_seconds").get<double>(), 0);
+        EXPECT_GT(heard.back().head.at("cpu_seconds").get<double>(), 0);
+    }
+    EXPECT_EQ(files_left(), 2) << "nothing of a process that runs is taken from it";
+    worker_.stop();
+}
+
+TEST_F(WorkerTest, PovraysOwnWordsComeBeforeOurs) {
+    const Environment full_disk = faults("late-error");
+    send_job();
+    EXPECT_THAT(failure_of(), HasSubstr("No space left"));
+}
+
 TEST_F(WorkerTest, SendsThePixelsOfTheSectionAndThenItsTimes) {
     send_job();
     int id = 0;
