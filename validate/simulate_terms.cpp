@@ -49,9 +49,15 @@ double per_launch_cpu(const RunRecord& record) {
     return std::clamp(planned, 0.0, cheapest->cpu_seconds);
 }
 
-// POV-Ray's threads compute side by side, so only one thread's wall time tells what was idle.
+// POV-Ray's threads compute side by side, so only one thread's wall time tells what was idle; and
+// only of a launch that did not wait for a core which others had.
 void take_start_up(const RunRecord& record, std::vector<SimulateTerm>& terms) {
-    if (record.plan.threads != 1) return;
+    const auto shares_cores = [&](const RankRecord& rank) {
+        return rank.slots > 0 && record.plan.in_flight > rank.slots;
+    };
+    if (record.plan.threads != 1 ||
+        std::any_of(record.ranks.begin(), record.ranks.end(), shares_cores))
+        return;
     double idle = never;
     for (const SectionRecord& section : record.sections)
         idle = std::min(idle, section.wall_seconds - section.cpu_seconds);

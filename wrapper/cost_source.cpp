@@ -1,5 +1,7 @@
 #include "cost_source.h"
 
+#include "cost_model.h"
+#include "end_of_work.h"
 #include "interrupt.h"
 #include "probe_launches.h"
 #include "run_record.h"
@@ -38,30 +40,38 @@ std::vector<Part> parts_of(const ImageSize& size) {
     return parts;
 }
 
-ChildProcess launch(const ProbeRequest& request, const ImageSize& size, const Rect& rect,
-                    const std::filesystem::path& base) {
+struct PartLaunch {
+    std::filesystem::path base;
+    ChildProcess child;
+    EndOfWork end = {};
+    bool over = false;  // has done its work; it may not have ended
+};
+
+PartLaunch launch(const ProbeRequest& request, const ImageSize& size, const Rect& rect,
+                  std::filesystem::path base) {
     JobCommand job{request.povray, request.user_arguments, {}, 1, 0};
     job.user_arguments.push_back(fmt::format("+W{}", size.width));
     job.user_arguments.push_back(fmt::format("+H{}", size.height));
     ChildRequest child;
     child.argv = section_command(job, rect, size, base);
     child.timeout_seconds = request.timeout_seconds;
-    return ChildProcess::start(child);
+    return {std::move(base), ChildProcess::start(child)};
 }
 
-bool all_ended(std::vector<ChildProcess>& children) {
-    bool ended = true;
-    for (ChildProcess& child : children) ended = child.poll() && ended;
-    return ended;
-}
-
-void wait_for(std::vector<ChildProcess>& children) {
-    std::vector<pollfd> fds;
-    while (!all_ended(children)) {
+void wait_for(std::vector<PartLaunch>& launches) {
+    for (;;) {
         throw_if_interrupted();
-        fds.clear();
-        for (const ChildProcess& child : children) child.add_poll_fds(fds);
-        ::poll(fds.data(), fds.size(), 50);
+        std::vector<pollfd> fds;
+        int wait = 50;
+        for (PartLaunch& launch : launches) {
+            if (launch.over) continue;
+            launch.over = launch.child.poll() || launch.end.seen(launch.child, launch.base);
+            if (launch.over) continue;
+            launch.child.add_poll_fds(fds);
+            if (launch.end.near()) wait = near_end_milliseconds;
+        }
+        if (fds.empty()) return;
+        ::poll(fds.data(), fds.size(), wait);
     }
 }
 
@@ -93,14 +103,14 @@ PartCosts costs_of_small_parts(const ProbeRequest& request, const ProbeResult& p
     double cpu_seconds = 0;
     for (std::size_t begin = 0; begin < parts.size(); begin += side_by_side) {
         const std::size_t end = std::min(parts.size(), begin + side_by_side);
-        std::vector<ChildProcess> children;
+        std::vector<PartLaunch> launches;
         for (std::size_t i = begin; i < end; ++i)
-            children.push_back(
+            launches.push_back(
                 launch(request, size, parts[i].rect, folder / fmt::format("part{}-", i)));
-        wait_for(children);
+        wait_for(launches);
         for (std::size_t i = begin; i < end; ++i) {
-            const ChildProcess& child = children[i - begin];
-            cpu_seconds += child.result().cpu_seconds;
+            const ChildProcess& child = launches[i - begin].child;
+            cpu_seconds += child.cpu_seconds();
             parts[i].cpu_seconds = std::max(least_cpu, parse_report(child.output()).trace_cpu);
         }
     }

@@ -6,7 +6,7 @@ namespace mpipov {
 
 // Idle, before it traces: the core is free meanwhile. What it sleeps after its work is not waited
 // for (end_of_work.h).
-constexpr double startup_wall_seconds = 0.35;
+constexpr double startup_wall_seconds = 0.32;
 constexpr double bare_launch_cpu_seconds = 0.06;  // of an empty scene
 // Of writing one pixel of the full frame around a section.
 constexpr double frame_pixel_cpu_seconds = 70e-9;

@@ -1,6 +1,7 @@
 #include "render_job.h"
 
 #include "coordinator.h"
+#include "cost_model.h"
 #include "cost_source.h"
 #include "cpu_time.h"
 #include "early_render.h"

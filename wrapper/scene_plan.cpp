@@ -1,6 +1,7 @@
 #include "scene_plan.h"
 
 #include "cost_cut.h"
+#include "cost_model.h"
 
 #include <fmt/format.h>
 
@@ -22,32 +23,6 @@ constexpr double least_section_cpu = 0.5;
 // The grid of a scene whose pixels depend on the grid comes from the image alone.
 constexpr double pinned_section_pixels = 40000;
 constexpr int fewest_pinned = 4, most_pinned = 64;
-
-// Longer than any render; what is no time at all counts as none.
-constexpr double longest_seconds = 1e12;
-
-double sane(double seconds) {
-    return seconds > 0 ? std::min(seconds, longest_seconds) : 0;
-}
-
-ProbeResult with_sane_times(ProbeResult probe) {
-    LaunchReport& report = probe.report;
-    for (double* seconds :
-         {&report.parse_cpu, &report.photon_cpu, &report.radiosity_cpu, &report.trace_cpu})
-        *seconds = sane(*seconds);
-    probe.probe_pixels = std::max(1LL, probe.probe_pixels);
-    return probe;
-}
-
-// How many small renders fit into the region.
-double area_ratio(const ProbeResult& probe) {
-    return static_cast<double>(probe.image.region.area()) / static_cast<double>(probe.probe_pixels);
-}
-
-long long counter(const LaunchReport& report, const std::string& name) {
-    const auto found = report.counters.find(name);
-    return found == report.counters.end() ? 0 : found->second;
-}
 
 Effect counted(const LaunchReport& report, const std::string& name) {
     const long long n = counter(report, name);
@@ -86,8 +61,8 @@ std::map<std::string, Effect> find_effects(const ProbeResult& probe) {
             ? "the scene cannot be rendered small, and its middle does not speak for all of it"
             : "small renders in three block orders are identical",
         {}};
-    effects["render"] = {true, "trace time of the small render, by area",
-                         report.trace_cpu * area_ratio(probe)};
+    effects["render"] = {true, "trace time of the small render, by area and antialiasing",
+                         make_cost_model(probe).render};
     return effects;
 }
 
@@ -168,6 +143,20 @@ Cores pooled_cores(const PlanRequest& request) {
 }
 
 // How many sections, and launches of how many threads.
+// n+1 <= G <= W, for vertical strips; where the shape is left to us, too many must not become
+// tiles.
+void check_bounds_of_mpipov2(const PlanRequest& request, int ranks, int width) {
+    if (*request.sections < ranks + 1)
+        throw std::invalid_argument(fmt::format(
+            "--sections {}: {} rendering ranks with --dedicated-coordinator need at least {}",
+            *request.sections, ranks, ranks + 1));
+    if (request.shape.value_or(Shape::columns) == Shape::columns && *request.sections > width)
+        throw std::invalid_argument(
+            fmt::format("--sections {}: with --dedicated-coordinator there are at most as many as "
+                        "columns of pixels, {}; or choose --shape tiles",
+                        *request.sections, width));
+}
+
 Choice choose_sections(const PlanRequest& request, const GridRequest& grid, const CostModel& cost,
                        const Cores& cores, bool pinned) {
     const long long most = most_sections(grid, request.shape.value_or(Shape::tiles));
@@ -175,12 +164,8 @@ Choice choose_sections(const PlanRequest& request, const GridRequest& grid, cons
     const bool one_thread = grid.seams == Seams::halo;
     const int threads = one_thread ? 1 : request.threads.value_or(1);
     if (request.sections) {
-        // The bounds of MPIPOV2: n+1 <= G <= W; the upper one is the grid's own.
-        if (request.dedicated_coordinator && request.schedule != Policy::static_ &&
-            *request.sections < cores.ranks + 1)
-            throw std::invalid_argument(fmt::format(
-                "--sections {}: {} rendering ranks with --dedicated-coordinator need at least {}",
-                *request.sections, cores.ranks, cores.ranks + 1));
+        if (request.dedicated_coordinator && request.schedule != Policy::static_)
+            check_bounds_of_mpipov2(request, cores.ranks, grid.region.width());
         return {*request.sections, threads, 0};
     }
     if (pinned) {
@@ -213,30 +198,6 @@ Choice choose_sections(const PlanRequest& request, const GridRequest& grid, cons
 }
 
 }  // namespace
-
-double CostModel::wall_seconds(int sections, int lanes, int threads) const {
-    const double share = render / sections / threads + per_launch;
-    const double work = share * std::ceil(static_cast<double>(sections) / lanes);
-    // Shares are never equal: half of one is lost at the end where several lanes must meet. A
-    // launch's own threads share by small blocks and lose next to nothing.
-    const double imbalance = lanes > 1 ? render / sections / threads / 2 : 0;
-    const bool early = sections == 1 && threads == early_threads;
-    return (early ? 0 : startup_wall) + work + imbalance;
-}
-
-CostModel make_cost_model(const ProbeResult& given) {
-    const ProbeResult probe = with_sane_times(given);
-    CostModel cost;
-    const LaunchReport& report = probe.report;
-    const double frame = static_cast<double>(probe.image.width) * probe.image.height;
-    cost.render = report.trace_cpu * area_ratio(probe);
-    cost.per_launch = bare_launch_cpu_seconds + report.parse_cpu + report.photon_cpu +
-                      frame_pixel_cpu_seconds * frame;
-    // The pretrace looks at the section only, but it must light that section's surroundings too:
-    // nearly all of it is paid again.
-    if (report.radiosity) cost.per_launch += report.radiosity_cpu;
-    return cost;
-}
 
 Plan make_plan(const PlanRequest& request, const ProbeResult& given) {
     const ProbeResult probe = with_sane_times(given);

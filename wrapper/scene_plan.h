@@ -3,8 +3,7 @@
 #pragma once
 
 #include "cost_map.h"
-#include "launch_costs.h"
-#include "povray_text.h"
+#include "probe_result.h"
 #include "run_record.h"
 #include "schedule.h"
 #include "section.h"
@@ -15,17 +14,6 @@
 #include <vector>
 
 namespace mpipov {
-
-// What the small probe renders said.
-struct ProbeResult {
-    ImageOptions image;            // of the whole render, as POV-Ray resolved it
-    LaunchReport report;           // of the small render
-    long long probe_pixels = 1;    // how many pixels the small render had
-    bool order_dependent = false;  // the small render came out differently in another block order
-    bool seen_whole = true;        // false: it showed the middle of the picture only
-    int user_block = 0;            // the user's own +BS, 0: POV-Ray's default
-    ImageInfo stored;              // type, depth and channels of the file that POV-Ray wrote
-};
 
 struct PlanRequest {
     std::optional<Shape> shape;  // empty: auto
@@ -58,18 +46,5 @@ struct Plan {
 
 // Throws UsageError-like std::invalid_argument, naming the option, where the request is impossible.
 Plan make_plan(const PlanRequest& request, const ProbeResult& probe);
-
-// The terms of the cost model, seconds of CPU. Sources: docs/architecture.md, "Cost model".
-struct CostModel {
-    double render = 0;      // tracing the whole region
-    double per_launch = 0;  // paid again by every launch: parse, photons, full-frame output
-    double startup_wall = startup_wall_seconds;
-    int early_threads = 0;  // a launch of all with so many threads has its start-up behind it
-
-    double cpu_seconds(int sections) const { return render + sections * per_launch; }
-    // Wall time of `sections` equal shares on `lanes` launches at once of `threads` threads each.
-    double wall_seconds(int sections, int lanes, int threads) const;
-};
-CostModel make_cost_model(const ProbeResult& probe);
 
 }  // namespace mpipov
