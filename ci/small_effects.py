@@ -83,5 +83,5 @@ def small_effects():
             two_pixels("media", "pigment { rgbt 1 } hollow interior { media { emission 1 "
                                 "method 3 intervals 1 samples 5 } }", ("transparency",)),
             isosurface(),
-            crand("one_block", 6, missed), crand("many_blocks", 12, {}),
+            crand("one_block", 6, {}), crand("many_blocks", 12, {}),
             jitter("one_block", 4, missed), jitter("many_blocks", 14, {})]

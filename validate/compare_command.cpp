@@ -4,6 +4,7 @@
 #include "compare_report.h"
 #include "json_output.h"
 #include "number_check.h"
+#include "other_file.h"
 #include "run_image.h"
 
 #include <CLI/Config.hpp>

@@ -1,6 +1,7 @@
 #include "noise_command.h"
 
 #include "json_output.h"
+#include "other_file.h"
 #include "render_options.h"
 #include "scratch.h"
 #include "seams_report.h"

@@ -1,6 +1,7 @@
 #include "report_command.h"
 
 #include "json_output.h"
+#include "other_file.h"
 #include "python_script.h"
 #include "report_input.h"
 #include "scratch.h"

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <csignal>
 #include <ctime>
+#include <fstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -50,6 +51,17 @@ std::uint64_t peak_memory(const std::string& process) {
     return kibibytes * 1024;
 }
 
+// True too where the kernel does not tell.
+bool has_children(const std::string& process) {
+    std::error_code error;
+    const std::filesystem::directory_iterator threads(process + "/task", error);
+    if (error) return true;
+    return std::any_of(begin(threads), end(threads), [](const auto& thread) {
+        std::ifstream children(thread.path() / "children");
+        return !children || children.peek() != std::ifstream::traits_type::eof();
+    });
+}
+
 }  // namespace
 
 class ChildProcess::State {
@@ -65,6 +77,7 @@ class ChildProcess::State {
     int output_fd() const { return pipe_.get(); }
     int exit_fd() const { return pidfd_.get(); }
     int wait_milliseconds() const;
+    void set_timeout(double seconds) { timeout_ = elapsed() + seconds; }
     int pid() const { return pid_; }
     std::string_view output() { return text_.view(); }
     double wall_seconds() const { return ended_ ? result_.wall_seconds : elapsed(); }
@@ -197,9 +210,10 @@ double ChildProcess::State::cpu_seconds() const {
 
 bool ChildProcess::State::has_file_open() const {
     if (ended_) return false;
+    const std::string process = "/proc/" + std::to_string(pid_);
     std::error_code error;
-    const std::filesystem::directory_iterator open("/proc/" + std::to_string(pid_) + "/fd", error);
-    if (error) return true;
+    const std::filesystem::directory_iterator open(process + "/fd", error);
+    if (error || has_children(process)) return true;
     return std::any_of(begin(open), end(open), [](const auto& file) {
         std::error_code ignored;  // one that was closed meanwhile
         return std::filesystem::status(file.path(), ignored).type() ==
@@ -291,6 +305,9 @@ void ChildProcess::add_poll_fds(std::vector<pollfd>& fds) const {
 }
 int ChildProcess::wait_milliseconds() const {
     return state_->wait_milliseconds();
+}
+void ChildProcess::set_timeout(double seconds) {
+    state_->set_timeout(seconds);
 }
 int ChildProcess::pid() const {
     return state_->pid();

@@ -78,12 +78,16 @@ class ChildProcess {
     // The longest that ::poll() on both may sleep before poll() must be called for a deadline.
     int wait_milliseconds() const;
 
+    // From now on; in place of an earlier one.
+    void set_timeout(double seconds);
+
     int pid() const;  // also the number of its process group
 
     // So far, and after its end as in the result. CPU of the child alone, not of what it started.
     double wall_seconds() const;
     double cpu_seconds() const;
-    // A regular file, for reading or writing; true too where the kernel does not tell.
+    // A regular file, for reading or writing. True too where that cannot be told: not by the
+    // kernel, or of children of its own (a wrapper around the program).
     bool has_file_open() const;
 
     // stdout and stderr so far, in the order written. Of more than capture_limit bytes the first

@@ -438,6 +438,22 @@ TEST_F(ChildProcessTest, TellsOfARunningChildWhatItSpentAndWhetherAFileIsOpen) {
     }
 }
 
+// What a wrapper around a program has open cannot be told: it could be anything.
+TEST_F(ChildProcessTest, AChildWithChildrenMayHaveAFileOpen) {
+    ChildProcess child = ChildProcess::start(shell("sleep 1000 & echo ready; wait"));
+    ASSERT_TRUE(wait_until([&] { return child.poll() || child.output() == "ready\n"; }));
+    EXPECT_TRUE(child.has_file_open());
+}
+
+TEST_F(ChildProcessTest, ATimeoutCanBeginLater) {
+    ChildRequest request = shell("exec sleep 1000");
+    ChildProcess child = ChildProcess::start(request);
+    EXPECT_FALSE(child.poll());
+    child.set_timeout(0.05);
+    ASSERT_TRUE(wait_until([&] { return child.poll(); }));
+    EXPECT_TRUE(child.result().timed_out);
+}
+
 TEST_F(ChildProcessTest, PeakMemoryIsTheChildsNotOurs) {
     constexpr std::uint64_t mebibyte = std::uint64_t{1} << 20;
     const std::vector<char> ours(100 * mebibyte, 1);

@@ -278,7 +278,8 @@ void Coordinator::take_failed(const Message& message) {
     std::erase_if(progress.runs, [&](const Run& run) { return &run == source.run; });
     end_launch(message.peer, message.head.at("cpu_seconds"));
     schedule_.failed(id, message.peer);
-    if (schedule_.failures(id) > setup_.retries)
+    // Where another rank has it under way too, that may still come out well.
+    if (progress.runs.empty() && schedule_.failures(id) > setup_.retries)
         throw Failure(
             Exit::scene,
             fmt::format("section {} failed {} times, last on {}: {}", id, schedule_.failures(id),

@@ -140,6 +140,14 @@ CostMap stretched(const CostMap& costs, const Rect& region) {
     return {region, std::move(patches)};
 }
 
+CostMap with_sum(const CostMap& costs, double cpu_seconds) {
+    const double sum = costs.cpu_seconds();
+    if (!(sum > 0)) throw std::invalid_argument("nothing in the cost map costs anything");
+    std::vector<CostPatch> patches = costs.patches();
+    for (CostPatch& patch : patches) patch.cpu_seconds *= cpu_seconds / sum;
+    return {costs.region(), std::move(patches)};
+}
+
 CostMap costs_of_run(const RunRecord& record, double per_launch) {
     if (record.sections.empty()) throw std::invalid_argument("the record has no sections");
     std::vector<CostPatch> patches;

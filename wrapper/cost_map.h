@@ -46,6 +46,9 @@ CostMap hill_costs(const Rect& region, double cpu_seconds);
 // The same for another size or part of the same picture.
 CostMap stretched(const CostMap& costs, const Rect& region);
 
+// The same with another sum. Throws std::invalid_argument where nothing in it costs anything.
+CostMap with_sum(const CostMap& costs, double cpu_seconds);
+
 // Of a finished run's sections, without `per_launch` CPU seconds of each. Throws
 // std::invalid_argument where the record has no sections.
 CostMap costs_of_run(const RunRecord& record, double per_launch);

@@ -27,7 +27,12 @@ constexpr double least_cpu = 0.002;
 struct Part {
     Rect rect;
     double cpu_seconds = least_cpu;
+    bool failed = false;
 };
+
+bool cheaper(const Part& a, const Part& b) {
+    return a.cpu_seconds < b.cpu_seconds;
+}
 
 std::vector<Part> parts_of(const ImageSize& size) {
     std::vector<Part> parts;
@@ -45,6 +50,8 @@ struct PartLaunch {
     ChildProcess child;
     EndOfWork end = {};
     bool over = false;  // has done its work; it may not have ended
+
+    bool succeeded() const { return !child.ended() || child.result().exit_code == 0; }
 };
 
 PartLaunch launch(const ProbeRequest& request, const ImageSize& size, const Rect& rect,
@@ -54,6 +61,7 @@ PartLaunch launch(const ProbeRequest& request, const ImageSize& size, const Rect
     job.user_arguments.push_back(fmt::format("+H{}", size.height));
     ChildRequest child;
     child.argv = section_command(job, rect, size, base);
+    child.environment = temporary_files_in(base.parent_path());
     child.timeout_seconds = request.timeout_seconds;
     return {std::move(base), ChildProcess::start(child)};
 }
@@ -81,15 +89,21 @@ std::optional<CostMap> costs_of_earlier_run(const std::filesystem::path& file,
                                             const std::string& scene_sha1,
                                             const ProbeResult& probe) {
     try {
-        if (!std::filesystem::exists(file)) return {};
+        // Not from a pipe, which we are to write into.
+        if (!std::filesystem::is_regular_file(file)) return {};
         const RunRecord record = read_run_record(file);
         const Rect whole{0, 0, record.plan.image.width, record.plan.image.height};
         const Rect now{0, 0, probe.image.width, probe.image.height};
         const bool comparable = record.plan.region == probe.image.region ||
                                 (record.plan.region == whole && probe.image.region == now);
         if (!record.complete || record.scene_sha1 != scene_sha1 || !comparable) return {};
-        const double per_launch = make_cost_model(probe).per_launch;
-        return stretched(costs_of_run(record, per_launch), probe.image.region);
+        // A preview may have been rendered with other options: only the shape of its costs counts.
+        ProbeResult of_record = probe;
+        of_record.image.width = record.plan.image.width;
+        of_record.image.height = record.plan.image.height;
+        const double per_launch = make_cost_model(of_record).per_launch;
+        return with_sum(stretched(costs_of_run(record, per_launch), probe.image.region),
+                        make_cost_model(probe).render);
     } catch (const std::exception&) {  // not ours, or damaged: this run writes a new one
         return {};
     }
@@ -112,8 +126,13 @@ PartCosts costs_of_small_parts(const ProbeRequest& request, const ProbeResult& p
             const ChildProcess& child = launches[i - begin].child;
             cpu_seconds += child.cpu_seconds();
             parts[i].cpu_seconds = std::max(least_cpu, parse_report(child.output()).trace_cpu);
+            parts[i].failed = !launches[i - begin].succeeded();
         }
     }
+    // One that took too long is dear, and of one that failed it is not known.
+    const double dearest = std::max_element(parts.begin(), parts.end(), cheaper)->cpu_seconds;
+    for (Part& part : parts)
+        if (part.failed) part.cpu_seconds = dearest;
     const Rect& region = probe.image.region;
     const Rect small{0, 0, size.width, size.height};
     std::vector<CostPatch> patches;
@@ -126,7 +145,8 @@ PartCosts costs_of_small_parts(const ProbeRequest& request, const ProbeResult& p
         const Rect rect = intersect(patch.rect, region);
         if (!rect.empty()) in_region.push_back({rect, of_image.cpu_seconds(rect)});
     }
-    return {CostMap(region, std::move(in_region)), cpu_seconds, static_cast<int>(parts.size())};
+    return {with_sum(CostMap(region, std::move(in_region)), make_cost_model(probe).render),
+            cpu_seconds, static_cast<int>(parts.size())};
 }
 
 }  // namespace mpipov

@@ -11,14 +11,16 @@
 
 namespace mpipov {
 
-// From the record that an earlier run left in `file`, of the same scene files (any size, the same
-// part of the picture). None where there is no such record.
+// From the record that an earlier run left in `file`, of the same scene files (any size and
+// options, the same part of the picture): where the costs lie is the record's, their sum the
+// probe's. None where there is no such record.
 std::optional<CostMap> costs_of_earlier_run(const std::filesystem::path& file,
                                             const std::string& scene_sha1,
                                             const ProbeResult& probe);
 
 // Renders the parts of the small picture by themselves and takes POV-Ray's CPU times. Parts that
-// cannot be rendered cost as much as the others. Throws Failure(Exit::interrupted).
+// cannot be rendered, or not in time, cost as much as the dearest. Throws
+// Failure(Exit::interrupted).
 struct PartCosts {
     CostMap costs;
     double cpu_seconds = 0;  // of all that was launched for it

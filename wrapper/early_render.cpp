@@ -28,7 +28,7 @@ std::optional<EarlyRender> start_early(const JobSetup& setup, int ranks,
     LaunchFolder own(folder);
     ChildRequest request;
     request.argv = whole_command(job, own.path() / section_image_name);
-    request.timeout_seconds = options.timeout_seconds;
+    request.environment = temporary_files_in(own.path());
     return EarlyRender{{std::move(own), ChildProcess::start(request)}, job.threads};
 }
 

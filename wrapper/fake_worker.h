@@ -102,7 +102,8 @@ class FakeWorker {
             send(launch, MessageKind::progress, {{"fraction", 0.5}});
             return false;
         }
-        if (!why.empty() && launch.next_row > render.y0) {
+        // Most faults come after the first band, "at once" before it.
+        if (!why.empty() && (launch.next_row > render.y0 || why == "at once")) {
             send(launch, MessageKind::failed, {{"why", why}, {"cpu_seconds", 1.0}});
             return true;
         }

@@ -103,6 +103,12 @@ std::string scene_sha1(const json& identity) {
     return sha1_digits(sha);
 }
 
+std::vector<std::filesystem::path> files_of_scene(const json& identity) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& [name, sha1] : identity.at(files_key).items()) files.emplace_back(name);
+    return files;
+}
+
 std::string what_changed(const json& earlier, const json& now) {
     std::vector<std::string> keys(order.begin(), order.end());
     for (const std::string& key : keys_of(earlier, now))

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ nlohmann::json job_identity(const Probe& probe, const std::vector<std::string>& 
 
 // Of the scene's files alone: the same for any size and options. 40 hexadecimal digits.
 std::string scene_sha1(const nlohmann::json& identity);
+
+// The files themselves.
+std::vector<std::filesystem::path> files_of_scene(const nlohmann::json& identity);
 
 // The first thing in which two of them differ, with both values where they can be told: "Width
 // changed from 320 to 640", "'colours.inc' changed"; "" where they are the same. Any members are

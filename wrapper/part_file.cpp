@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <array>
@@ -21,6 +22,8 @@ namespace mpipov {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int pause_milliseconds = 50;
 
 [[noreturn]] void refuse(const fs::path& target, const std::string& why) {
     throw std::runtime_error(fmt::format("cannot write '{}': {}", target.string(), why));
@@ -40,18 +43,30 @@ fs::path end_of_links(const fs::path& file) {
     return end;
 }
 
-// Opening a pipe waits for its reader, which a user must be able to interrupt.
+// Opening a pipe waits for its reader, and writing for that to read: a user must be able to
+// interrupt both.
 Fd open_to_write_into(const fs::path& target) {
-    constexpr auto pause = std::chrono::milliseconds(50);
+    constexpr auto pause = std::chrono::milliseconds(pause_milliseconds);
     for (;;) {
         Fd file(::open(target.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
-        if (file.get() >= 0) {
-            ::fcntl(file.get(), F_SETFL, 0);
-            return file;
-        }
+        if (file.get() >= 0) return file;
         if (errno != ENXIO || !fs::is_fifo(target)) refuse(target, std::strerror(errno));
         throw_if_interrupted();
         std::this_thread::sleep_for(pause);
+    }
+}
+
+void write_all(const Fd& out, std::string_view bytes, const fs::path& target) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(out.get(), bytes.data(), bytes.size());
+        if (written >= 0) {
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+            continue;
+        }
+        if (errno != EAGAIN) refuse(target, std::strerror(errno));
+        throw_if_interrupted();
+        pollfd room{out.get(), POLLOUT, 0};
+        ::poll(&room, 1, pause_milliseconds);
     }
 }
 
@@ -64,7 +79,8 @@ bool is_written_into(const fs::path& target) {
 }
 
 PartFile::PartFile(const fs::path& target)
-    : target_(end_of_links(target)), into_(is_written_into(target_)) {
+    // /dev/fd/5 is a link to what has no name: it is asked for first.
+    : into_(is_written_into(target)), target_(into_ ? target : end_of_links(target)) {
     if (into_ && ::access(target_.c_str(), W_OK) != 0) refuse(target, std::strerror(errno));
     const fs::path folder = into_ ? fs::temp_directory_path() : target_.parent_path();
     std::random_device random;
@@ -105,12 +121,7 @@ void PartFile::write_into_place() const {
         const ssize_t got = ::read(in.get(), bytes.data(), bytes.size());
         if (got == 0) return;
         if (got < 0) refuse(target_, std::strerror(errno));
-        for (ssize_t done = 0; done < got;) {
-            const ssize_t written =
-                ::write(out.get(), bytes.data() + done, static_cast<std::size_t>(got - done));
-            if (written < 0) refuse(target_, std::strerror(errno));
-            done += written;
-        }
+        write_all(out, {bytes.data(), static_cast<std::size_t>(got)}, target_);
     }
 }
 

@@ -31,8 +31,8 @@ class PartFile {
   private:
     void write_into_place() const;
 
-    std::filesystem::path target_;  // where links lead
     bool into_ = false;             // no regular file: it is written into
+    std::filesystem::path target_;  // where links lead
     std::filesystem::path part_;
 };
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <future>
@@ -72,6 +73,18 @@ TEST_F(PartFileTest, WritesIntoAPipe) {
     EXPECT_EQ(reader.get(), text);
     EXPECT_TRUE(fs::is_fifo(pipe));
     EXPECT_EQ(entries(), 1);
+}
+
+// As bash's >(gzip > file) has it: a link to what has no name.
+TEST_F(PartFileTest, WritesIntoAPipeWithoutAName) {
+    int ends[2] = {-1, -1};
+    ASSERT_EQ(::pipe(ends), 0);
+    write_whole("/proc/self/fd/" + std::to_string(ends[1]), "text");
+    ::close(ends[1]);
+    std::string text(10, ' ');
+    text.resize(static_cast<std::size_t>(::read(ends[0], text.data(), text.size())));
+    ::close(ends[0]);
+    EXPECT_EQ(text, "text");
 }
 
 TEST_F(PartFileTest, AMissingFolderIsNamed) {

@@ -100,6 +100,11 @@ std::vector<std::string> section_command(const JobCommand& job, const Rect& rend
     return command(job, area_arguments(launch_area(render, image)), output_base);
 }
 
+std::vector<std::pair<std::string, std::string>> temporary_files_in(
+    const std::filesystem::path& folder) {
+    return {{"POV_TEMP_DIR", folder.string()}};
+}
+
 std::vector<std::string> quote_arguments(const std::vector<std::string>& arguments) {
     std::vector<std::string> out;
     out.reserve(arguments.size());

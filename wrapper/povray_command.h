@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mpipov {
@@ -42,6 +43,11 @@ std::vector<std::string> section_command(const JobCommand& job, const Rect& rend
 // The same for all that the user asked for: no area, so it can start before anybody knows the size.
 std::vector<std::string> whole_command(const JobCommand& job,
                                        const std::filesystem::path& output_base);
+
+// What a launch's environment is given besides ours. POV-Ray keeps a large image in a temporary
+// file, which stays behind where it is killed; it asks POV_TEMP_DIR for the place, not TMPDIR.
+std::vector<std::pair<std::string, std::string>> temporary_files_in(
+    const std::filesystem::path& folder);
 
 // POV-Ray splits an argument at blanks (`"+W320 +H240"` are two options), so a file name that has
 // blanks must be in quotation marks. Users do not expect that: where an argument is a file option

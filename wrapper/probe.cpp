@@ -134,7 +134,7 @@ Probe probe_once(const ProbeRequest& request) {
     refuse_what_is_no_single_image(*image);
     probe.style.type = oiio_type(image->type);
 
-    const bool refuses_to_be_small = !launches.rendered() && !launches.timed_out();
+    const bool refuses_to_be_small = launches.refused_by_the_scene();
     if (refuses_to_be_small) {
         launches.render(middle_view({image->width, image->height}));
         launches.wait();
@@ -155,11 +155,11 @@ Probe probe_once(const ProbeRequest& request) {
     result.user_block = block_size(settings);
     probe.settings = ini_settings(settings);
     const bool diffused = image->dithering.find("diffusion") != std::string::npos;
-    const auto others = launches.in_other_orders();
+    const auto orders = launches.in_several_orders();
     result.seen_whole = !refuses_to_be_small;
     result.order_dependent =
-        diffused || !std::all_of(others.begin(), others.end(), [&](const auto& other) {
-            return same_pixels(probe.style.sample, other);
+        diffused || !std::all_of(orders.begin(), orders.end(), [&](const auto& other) {
+            return same_pixels(orders.front(), other);
         });
     probe.warnings = parse_warnings(launches.render_output());
     probe.cpu_seconds = launches.cpu_seconds();

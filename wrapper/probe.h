@@ -1,12 +1,13 @@
-// Asks POV-Ray about a scene: what the result is, and what it costs. Four short launches side by
+// Asks POV-Ray about a scene: what the result is, and what it costs. Five short launches side by
 // side:
 //  1. the user's own command with a header file that stops the parser at once: POV-Ray has then
 //     printed its version, size, region, output file and type as it resolved them, and touched
 //     nothing;
 //  2. the whole picture, small: which effects are on, and their times; its file is the sample that
 //     the result's metadata is taken from;
-//  3. and 4. the same in two other block orders (+RP): whether the pixels depend on it. One is not
-//     enough: where only a few blocks use random numbers, many orders leave those as they were.
+//  3. to 5. the same without antialiasing, in three orders and sizes of blocks (+RP, +BS): whether
+//     the pixels depend on it. One other is not enough: where only a few blocks use random numbers,
+//     many orders leave those as they were.
 // A scene that cannot be rendered small is asked again with the middle of its picture in full size.
 #pragma once
 

@@ -49,12 +49,15 @@ class ProbeLaunches {
 
     // Of the render in POV-Ray's own order.
     bool rendered() const { return launches_.at(1).succeeded(); }
+    // The scene's own #error, or what it computes from its size; not that the machine is too busy.
+    bool refused_by_the_scene() const;
     bool timed_out() const { return launches_.at(1).timed_out(); }
     std::string_view render_output() const { return launches_.at(1).child.output(); }
 
     // The files. Throw Failure(Exit::scene), saying why, where there is none.
     std::filesystem::path sample() const;
-    std::vector<std::filesystem::path> in_other_orders() const;
+    // Of one and the same picture, without antialiasing.
+    std::vector<std::filesystem::path> in_several_orders() const;
 
     int count() const { return started_; }  // all that were ever started
     double cpu_seconds() const;

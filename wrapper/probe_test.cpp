@@ -92,7 +92,7 @@ TEST_F(ProbeTest, TellsWhatTheResultIs) {
     EXPECT_TRUE(fs::exists(result.style.sample));
     EXPECT_THAT(result.warnings, IsEmpty());
     EXPECT_GT(result.cpu_seconds, 0);
-    EXPECT_EQ(result.launches, 4);
+    EXPECT_EQ(result.launches, 5);
     const PixelLayout sample = read_layout(result.style.sample);
     EXPECT_EQ(result.result.probe_pixels, static_cast<long long>(sample.width) * sample.height);
 }
@@ -111,7 +111,7 @@ TEST_F(ProbeTest, AsksAgainWhereASceneRefusesToBeSmall) {
     const Probe result = probe(write(
         "large.pov", fmt::format("{}\n#if (image_width < 60) #error \"too small\" #end", ball)));
     EXPECT_TRUE(fs::exists(result.style.sample));
-    EXPECT_EQ(result.launches, 7);
+    EXPECT_EQ(result.launches, 9);
     EXPECT_EQ(result.result.probe_pixels, 32 * 32);
     EXPECT_FALSE(result.result.seen_whole);
     PlanRequest request;

@@ -10,6 +10,7 @@
 #include "image_library.h"
 #include "interrupt.h"
 #include "job_identity.h"
+#include "other_file.h"
 #include "output_place.h"
 #include "probe.h"
 #include "progress.h"
@@ -205,33 +206,45 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     const std::vector<std::string> arguments = quote_arguments(options.povray_arguments);
     const ScratchFolder scratch("probe");
     std::optional<EarlyRender> early =
-        start_early(setup, transport.size(), arguments, scratch.path() / "early");
+        start_early(setup, transport.size(), arguments, worker.scratch() / "early");
+    const auto stop_early = [&] {
+        if (!early) return;
+        record.totals.cpu_seconds += early->launch.child.cpu_seconds();
+        ++record.totals.launches;
+        early.reset();
+    };
     std::optional<LoadingImageLibrary> loading;
     if (!options.dry_run) loading.emplace();
     const Probe probe =
         run_probe({options.povray, arguments, scratch.path() / "probe", options.timeout_seconds});
     const std::string& povray = probe.povray;
     record.versions["povray"] = povray;
-    record.totals.cpu_seconds = probe.cpu_seconds;
-    record.totals.launches = probe.launches;
+    record.totals.cpu_seconds += probe.cpu_seconds;
+    record.totals.launches += probe.launches;
     record.warnings = probe.warnings;
 
     const OutputPlace place(probe.result.image.output_file, options.record, options.work_dir);
     const MetRanks met = meet_ranks(setup, transport, povray);
-    if (early && !section_format(probe.result.image.type).empty()) early.reset();
+    if (!section_format(probe.result.image.type).empty()) stop_early();
     const nlohmann::json identity = job_identity(probe, arguments, povray);
     record.scene_sha1 = scene_sha1(identity);
+    std::vector<std::filesystem::path> kept = files_of_scene(identity);
+    kept.push_back(place.image());
+    require_other_file("--record", place.record(), kept);
     PlanRequest request = plan_request(options, met, early ? early->threads : 0);
     Plan plan = checked_plan(request, probe.result);
     // One launch has no parts to weigh against each other.
-    if (options.schedule == Policy::cost && !plan.takes_early) {
-        early.reset();
+    if (options.schedule == Policy::cost && !plan.takes_early && !options.resume) {
+        stop_early();
         request.early_threads = 0;
         request.costs = find_costs(setup, arguments, probe, place, scratch.path(), record);
         plan = checked_plan(request, probe.result);
     }
-    if (early && plan.takes_early) worker.adopt(0, std::move(early->launch));
-    early.reset();
+    if (early && plan.takes_early) {
+        worker.adopt(0, std::move(early->launch));
+        early.reset();
+    }
+    stop_early();
     if (options.dry_run) {
         print_result(to_json(plan.record).dump(2) + '\n');
         return;

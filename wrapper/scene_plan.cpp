@@ -139,10 +139,15 @@ Cores count_cores(const std::vector<int>& slots) {
 // One rank a host, with all of its cores.
 Cores pooled_cores(const PlanRequest& request) {
     if (request.pools.empty() || request.dedicated_coordinator) return {};
+    // All launches have equally many threads, so unequal pools would be overloaded or idle.
+    int pool = 0;
+    for (const int cores : request.pools) {
+        if (cores > 0 && pool > 0 && cores != pool) return {};
+        pool = std::max(pool, cores);
+    }
     return count_cores(request.pools);
 }
 
-// How many sections, and launches of how many threads.
 // n+1 <= G <= W, for vertical strips; where the shape is left to us, too many must not become
 // tiles.
 void check_bounds_of_mpipov2(const PlanRequest& request, int ranks, int width) {
@@ -157,6 +162,7 @@ void check_bounds_of_mpipov2(const PlanRequest& request, int ranks, int width) {
                         *request.sections, width));
 }
 
+// How many sections, and launches of how many threads.
 Choice choose_sections(const PlanRequest& request, const GridRequest& grid, const CostModel& cost,
                        const Cores& cores, bool pinned) {
     const long long most = most_sections(grid, request.shape.value_or(Shape::tiles));
@@ -178,7 +184,9 @@ Choice choose_sections(const PlanRequest& request, const GridRequest& grid, cons
     if (request.schedule == Policy::cost && request.costs && !request.shape) {
         const Partition cut = cut_by_cost(
             grid, *request.costs, {lanes, std::max(least_section_cpu, 4 * cost.per_launch)});
-        return {static_cast<int>(cut.sections.size()), threads, 0, false, cut};
+        const int sections = static_cast<int>(cut.sections.size());
+        if (!request.dedicated_coordinator || sections > cores.ranks)
+            return {sections, threads, 0, false, cut};
     }
     if (request.schedule == Policy::static_) return {clamp_to(lanes, 1, most), threads, 0};
     Choice choice = cheapest(cost, lanes, threads, most);

@@ -399,6 +399,14 @@ TEST(ScenePlan, RanksOfOneHostGiveTheirCoresToOneLaunchWhereThatIsFaster) {
     EXPECT_EQ(make_plan(request, scene(640, 480, 30)).record.sections, 2) << "as MPIPOV1";
 }
 
+// All launches have equally many threads.
+TEST(ScenePlan, UnequalHostsAreNotPooled) {
+    PlanRequest request;
+    request.slots = {1, 1, 2, 2};
+    request.pools = {2, 0, 4, 0};
+    EXPECT_THAT(make_plan(request, scene(640, 480, 30)).slots, testing::ElementsAre(1, 1, 2, 2));
+}
+
 TEST(ScenePlan, AnOrderDependentSceneIsNotRenderedByThreads) {
     PlanRequest request;
     request.slots = {1, 1};
@@ -438,6 +446,14 @@ TEST(ScenePlan, RanksHaveLaunchesUnderWayByTheirSlots) {
     ASSERT_EQ(plan.in_flight.size(), 2u);
     EXPECT_EQ(plan.in_flight[1], 4 * plan.in_flight[0]);
     EXPECT_EQ(plan.record.in_flight, plan.in_flight[1]);
+}
+
+TEST(ScenePlan, ACutKeepsThePapersLowerBound) {
+    PlanRequest request = ranks({0, 1, 1});
+    request.dedicated_coordinator = true;
+    request.schedule = Policy::cost;
+    request.costs = uniform_costs({0, 0, 640, 480}, 0.01);
+    EXPECT_GE(make_plan(request, scene(640, 480, 0.01)).record.sections, 3);
 }
 
 TEST(ScenePlan, CostCutsWhereTheCostIs) {

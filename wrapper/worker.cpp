@@ -104,12 +104,14 @@ PreparedLaunch Worker::launch(const Section& section, int attempt) {
     if (adopted_ && adopted_for_ == section.id && attempt == 1) {
         PreparedLaunch adopted = std::move(*adopted_);
         adopted_.reset();
+        if (timeout_seconds_) adopted.child.set_timeout(*timeout_seconds_);
         return adopted;
     }
     LaunchFolder folder(scratch_ / fmt::format("{}-{}", section.id, attempt));
     ChildRequest request;
     request.argv =
         section_command(job_, section.render, image_, folder.path() / section_image_name);
+    request.environment = temporary_files_in(folder.path());
     request.timeout_seconds = timeout_seconds_;
     return {std::move(folder), ChildProcess::start(request)};
 }

@@ -27,7 +27,10 @@ class Worker {
 
     void handle(const Message& message);
 
-    // A launch that is under way already: the first attempt at `section` takes it.
+    const std::filesystem::path& scratch() const { return scratch_; }
+
+    // A launch that is under way already: the first attempt at `section` takes it, and its time
+    // runs from then on.
     void adopt(int section, PreparedLaunch launch);
 
     // Looks after the launches; true where something happened.

@@ -124,6 +124,16 @@ void expect_known_bands(const std::vector<Message>& bands, const Rect& render) {
     EXPECT_EQ(row, render.y1);
 }
 
+TEST_F(WorkerTest, ALaunchThatIsTakenOverCanHang) {
+    const Environment hanging = faults("hang");
+    send_job(image, 0.05);
+    LaunchFolder folder(scratch_.path() / "early");
+    ChildRequest request;
+    request.argv = {MPIPOV_FAKE_POVRAY};
+    worker_.adopt(0, {std::move(folder), ChildProcess::start(request)});
+    EXPECT_THAT(failure_of(), HasSubstr("did not end within"));
+}
+
 // POV-Ray sleeps for 0.3 s then, and the stand-in for ever.
 TEST_F(WorkerTest, DoesNotWaitForAPovrayThatHasDoneItsWork) {
     const Environment lingering = faults("linger");
