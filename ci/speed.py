@@ -12,7 +12,6 @@ Exit codes: 0 ok, 1 a bar is missed, 2 usage, 77 nothing to measure.
 """
 
 import json
-import statistics
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
@@ -36,7 +35,7 @@ class Scene:
 
 SCENES = {
     "second": Scene(BASIC / "spheres.pov", ("+W640", "+H480", "+A0.1", "+R4"), 7, "dynamic"),
-    "corner": Scene(BASIC / "corner.pov", ("+W640", "+H480", "+A0.3", "+AM1"), 3),
+    "corner": Scene(BASIC / "corner.pov", ("+W640", "+H480", "+A0.3", "+AM1"), 2),
     "uniform": Scene(BASIC / "uniform.pov", ("+W480", "+H360", "+A0.3", "+AM1"), 3),
     "benchmark": Scene(EXAMPLES / "advanced" / "benchmark" / "benchmark.pov",
                        ("+W512", "+H512", "+A0.3"), 1, "dynamic"),
@@ -102,29 +101,29 @@ def measure_in_flight(options, programs):
 
 
 def simulate_scene(name, options, programs):
+    """In each turn a run on one rank and one on two; what is said of both from the first one's record,
+    and of the second from its own, which knows how fast the cores were meanwhile."""
     scene, *arguments = SIMULATED[name]
     folder = fresh_folder(options.work / "simulation" / name)
-    measured = {1: [], 2: []}
-    records = {}
+    turns = []
     for turn in range(REPEAT):
+        runs = {}
         for ranks in (1, 2) if turn % 2 == 0 else (2, 1):
-            record = record_of(programs, ranks, [scene, *arguments, "--slots", 1, "--threads", 1,
-                                                 "--shape", "tiles", "--sections",
-                                                 SIMULATED_SECTIONS], folder)
-            measured[ranks].append(record["totals"]["wall_seconds"])
-            records[ranks, turn] = record
-    # Of the run in the middle: a record says how one run went.
-    middle = measured[1].index(sorted(measured[1])[REPEAT // 2])
-    source = folder / "source.json"
-    write(source, records[1, middle])
-    rows = []
-    for ranks in (1, 2):
-        said = simulate(programs, folder, ["--run", source,
-                                           *arguments_of(records[ranks, 0], ranks)])
-        rows.append({"ranks": ranks, "said": said, "measured": measured[ranks]})
-        print(f"{name}, {ranks} ranks: said {said:.2f} s, measured "
-              f"{statistics.median(measured[ranks]):.2f} s", flush=True)
-    return {"scene": name, "arguments": arguments, "rows": rows}
+            runs[ranks] = record_of(programs, ranks, [scene, *arguments, "--slots", 1, "--threads", 1,
+                                                      "--shape", "tiles", "--sections",
+                                                      SIMULATED_SECTIONS], folder)
+            write(folder / f"run{turn}-{ranks}.json", runs[ranks])
+        found = {}
+        for source, ranks in ((1, 1), (1, 2), (2, 2)):
+            said = simulate(programs, folder, ["--run", folder / f"run{turn}-{source}.json",
+                                               *arguments_of(runs[ranks], ranks)])
+            found[f"{source}-{ranks}"] = {
+                "said": said, "measured": runs[ranks]["totals"]["wall_seconds"],
+                "cpu_seconds": sum(s["cpu_seconds"] for s in runs[ranks]["sections"])}
+        turns.append(found)
+        print(name, {key: f"{f['said']:.2f} {f['measured']:.2f}" for key, f in found.items()},
+              flush=True)
+    return {"scene": name, "arguments": arguments, "turns": turns}
 
 
 def measure_simulation(options, programs):

@@ -14,8 +14,8 @@ namespace {
 // Measured, docs/simulation.md says how.
 constexpr double answer_seconds = 0.025;
 constexpr double service_seconds = 1.0 / 2000;
-constexpr double before_seconds = 1.0;
-constexpr double after_seconds = 0.35, after_pixel_seconds = 70e-9;
+constexpr double before_seconds = 0.5;
+constexpr double after_seconds = 0.03, after_pixel_seconds = 70e-9;
 
 const char* const no_scene = "no run of the scene says that it has any";
 const char* const one_host = "all ranks are on one host";
