@@ -41,7 +41,7 @@ Schedule::Schedule(Policy policy, const std::vector<int>& sections, const std::v
         return;
     }
     // Neighbouring sections to the same worker, each as many as it has lanes.
-    const long long all_lanes = std::accumulate(lanes.begin(), lanes.end(), 0LL);
+    const long long all_lanes = std::max(1LL, std::accumulate(lanes.begin(), lanes.end(), 0LL));
     const auto count = static_cast<long long>(sections.size());
     long long lanes_before = 0;
     for (std::size_t worker = 0; worker < lanes.size(); ++worker) {
