@@ -1,6 +1,9 @@
 """docs/effects.md, from the verdicts of ci/effects."""
 
 
+from markdown_table import table as markdown_table
+
+
 def words(names):
     return ", ".join(sorted(names)) or "-"
 
@@ -9,24 +12,24 @@ def row(verdict):
     scene = verdict.scene
     found = {name for name, effect in verdict.found.items() if effect["on"]}
     known = [f"{name} (known)" for name in verdict.known]
-    return (f"| {scene.name} | {words(scene.effects)} | {words(found)} | "
-            f"{words(verdict.missed + known)} | {words(verdict.vain)} |")
+    return (scene.name, words(scene.effects), words(found), words(verdict.missed + known),
+            words(verdict.vain))
 
 
 def table(verdicts):
-    return ["| scene | called for | found | missed | found in vain |",
-            "| --- | --- | --- | --- | --- |", *map(row, verdicts)]
+    return markdown_table(("scene", "called for", "found", "missed", "found in vain"),
+                          map(row, verdicts))
 
 
 def by_effect(verdicts):
-    lines = ["| effect | scenes that call for it | found there | missed | found in vain |",
-             "| --- | --- | --- | --- | --- |"]
+    rows = []
     for name in sorted({name for verdict in verdicts for name in verdict.found}):
         called = [verdict for verdict in verdicts if name in verdict.scene.effects]
         missed = sum(name in verdict.missed + verdict.known for verdict in called)
         vain = sum(name in verdict.vain for verdict in verdicts)
-        lines.append(f"| {name} | {len(called)} | {len(called) - missed} | {missed} | {vain} |")
-    return lines
+        rows.append((name, len(called), len(called) - missed, missed, vain))
+    return markdown_table(("effect", "scenes that call for it", "found there", "missed",
+                           "found in vain"), rows)
 
 
 def explained(verdicts):
@@ -63,12 +66,12 @@ def page(parts, totals, size):
         "scene calls for was written down by hand, from its text. The tests `effects.*` compare",
         "the same, and fail where an effect is missed that is not known to be.",
         "", f"{totals(everything)}.", "",
-        *by_effect(everything), "",
+        by_effect(everything), "",
         "Called for, but without a name in mpipov's answer, with the number of scenes:", "",
         f"{unnamed(everything)}.", "",
         "Those of them that make pixels depend on the order of rendering are answered as",
         "order_dependent.", "",
         "## Not as expected", "", *explained(everything), ""]
     for heading, verdicts in parts.items():
-        lines += [f"## {heading}", "", f"{totals(verdicts)}.", "", *table(verdicts), ""]
+        lines += [f"## {heading}", "", f"{totals(verdicts)}.", "", table(verdicts), ""]
     return "\n".join([*lines, "## Notes on the scenes", "", *notes(everything)]) + "\n"

@@ -5,6 +5,8 @@ import textwrap
 from collections import Counter
 from statistics import median
 
+from markdown_table import table
+
 KINDS = ("plain", "aligned", "halo1", "halo2", "halo4")
 SECTIONS = (2, 8, 32)
 LEVELS = 255
@@ -59,11 +61,6 @@ class Case:
             return "="
         ssim = f"{self.ssim:.4f}" if self.ssim is not None else "-"
         return f"{self.differing} / {self.largest:.0f} / {ssim} {SHORT[self.verdict]}"
-
-
-def table(head, rows):
-    lines = [head, ["---"] * len(head), *rows]
-    return "\n".join("| " + " | ".join(str(cell) for cell in row) + " |" for row in lines)
 
 
 def percent(part, whole):

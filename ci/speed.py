@@ -93,10 +93,9 @@ def measure_in_flight(options, programs):
             sections = record["sections"]
             seconds[under_way].append(max(s["end"] for s in sections) -
                                       min(s["start"] for s in sections))
-            in_flight = record["plan"]["in_flight"]
             print(f"in flight {under_way}: {seconds[under_way][-1]:.2f} s", flush=True)
             if under_way == "auto":
-                chosen = in_flight
+                chosen = record["plan"]["in_flight"]
     write(file, {"sections": 16, "chosen": chosen, "seconds": seconds})
 
 

@@ -4,7 +4,7 @@ import shlex
 from pathlib import Path
 from statistics import median
 
-from seams_survey_page import table
+from markdown_table import table
 
 WITHIN = 0.1  # of the simulator
 # Where two threads of POV-Ray gain less, the second core was not free, and nothing can be said.

@@ -1,6 +1,5 @@
 #include "json_output.h"
 
-#include "failure.h"
 #include "part_file.h"
 
 #include <fmt/format.h>
@@ -9,21 +8,13 @@
 
 namespace mpipov {
 
-namespace fs = std::filesystem;
-
 void write_json(const std::string& target, const nlohmann::json& json) {
     const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
     if (target == "-") {
         fmt::print("{}\n", text);  // main sees to it that it arrives
         return;
     }
-    try {
-        write_whole(target, text + '\n');
-    } catch (const Failure&) {
-        throw;
-    } catch (const std::runtime_error& error) {
-        throw Failure(Exit::file, error.what());
-    }
+    write_whole(target, text + '\n');
 }
 
 }  // namespace mpipov

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <string>
+
 namespace mpipov {
 namespace {
 
@@ -36,54 +39,48 @@ TEST(CoordinatorCopies, ARankThatIsStuckHoldsNothingUp) {
     }
 }
 
-// Both launches of a section send bands and ends in any order; the picture is whole whoever wins.
-TEST(CoordinatorCopies, TheFirstResultCountsInAnyOrderOfEvents) {
-    int copies = 0;
-    for (unsigned seed = 1; seed <= 200; ++seed) {
-        RigSetup setup = setup_with(seed);
-        setup.clock_step = 1;  // so slow that copies always seem to pay
-        Rig rig(setup);
-        rig.run();
-        EXPECT_TRUE(holds_known_picture(rig.canvas(), setup.grid.region));
-        copies += rig.record().totals.copies;
-        EXPECT_EQ(rig.record().totals.launches, 12 + rig.record().totals.copies);
-    }
-    EXPECT_GT(copies, 20) << "nothing was tested";
-}
-
-TEST(CoordinatorCopies, AFailureOfEitherIsNoFailureOfTheSection) {
+// Two launches of a section send bands and ends in any order, on a clock so slow that copies always
+// seem to pay: the picture is whole whoever wins.
+void expect_whole_pictures(const std::function<void(RigSetup&)>& change,
+                           const std::function<void(const Totals&)>& check = {}) {
     int copies = 0;
     for (unsigned seed = 1; seed <= 200; ++seed) {
         RigSetup setup = setup_with(seed);
         setup.clock_step = 1;
+        change(setup);
+        Rig rig(setup);
+        rig.run();
+        EXPECT_TRUE(holds_known_picture(rig.canvas(), setup.grid.region));
+        const Totals totals = rig.record().totals;
+        copies += totals.copies;
+        if (check) check(totals);
+    }
+    EXPECT_GT(copies, 20) << "nothing was tested";
+}
+
+TEST(CoordinatorCopies, TheFirstResultCountsInAnyOrderOfEvents) {
+    expect_whole_pictures(
+        [](RigSetup&) {},
+        [](const Totals& totals) { EXPECT_EQ(totals.launches, 12 + totals.copies); });
+}
+
+TEST(CoordinatorCopies, AFailureOfEitherIsNoFailureOfTheSection) {
+    expect_whole_pictures([](RigSetup& setup) {
         setup.retries = 1;
         setup.worker.fault = [](int, const Assignment& a) {
             return std::string(a.attempt == 1 && a.section.id % 3 == 0 ? "broken" : "");
         };
-        Rig rig(setup);
-        rig.run();
-        EXPECT_TRUE(holds_known_picture(rig.canvas(), setup.grid.region));
-        copies += rig.record().totals.copies;
-    }
-    EXPECT_GT(copies, 20) << "nothing was tested";
+    });
 }
 
 // Without another attempt left: what is under way elsewhere may still come out well.
 TEST(CoordinatorCopies, ACopyIsAnotherChance) {
-    int saved = 0;
-    for (unsigned seed = 1; seed <= 200; ++seed) {
-        RigSetup setup = setup_with(seed);
-        setup.clock_step = 1;
+    expect_whole_pictures([](RigSetup& setup) {
         setup.retries = 0;
         setup.worker.fault = [](int, const Assignment& a) {
             return std::string(a.attempt == 2 ? "at once" : "");
         };
-        Rig rig(setup);
-        rig.run();
-        EXPECT_TRUE(holds_known_picture(rig.canvas(), setup.grid.region));
-        saved += rig.record().totals.copies;
-    }
-    EXPECT_GT(saved, 20) << "nothing was tested";
+    });
 }
 
 TEST(CoordinatorCopies, StaticAndHonestRanksMakeNone) {

@@ -1,16 +1,16 @@
 #include "cost_source.h"
 
 #include "cost_model.h"
-#include "end_of_work.h"
 #include "interrupt.h"
 #include "probe_launches.h"
 #include "run_record.h"
+#include "short_launch.h"
 
 #include <fmt/format.h>
-#include <poll.h>
 
 #include <algorithm>
 #include <exception>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -45,41 +45,25 @@ std::vector<Part> parts_of(const ImageSize& size) {
     return parts;
 }
 
-struct PartLaunch {
-    std::filesystem::path base;
-    ChildProcess child;
-    EndOfWork end = {};
-    bool over = false;  // has done its work; it may not have ended
-
-    bool succeeded() const { return !child.ended() || child.result().exit_code == 0; }
-};
-
-PartLaunch launch(const ProbeRequest& request, const ImageSize& size, const Rect& rect,
-                  std::filesystem::path base) {
+ShortLaunch launch(const ProbeRequest& request, const ImageSize& size, const Rect& rect,
+                   const std::filesystem::path& base) {
     JobCommand job{request.povray, request.user_arguments, {}, 1, 0};
     job.user_arguments.push_back(fmt::format("+W{}", size.width));
     job.user_arguments.push_back(fmt::format("+H{}", size.height));
-    ChildRequest child;
-    child.argv = section_command(job, rect, size, base);
-    child.environment = temporary_files_in(base.parent_path());
-    child.timeout_seconds = request.timeout_seconds;
-    return {std::move(base), ChildProcess::start(child)};
+    return ShortLaunch::start(section_command(job, rect, size, base), base,
+                              request.timeout_seconds);
 }
 
-void wait_for(std::vector<PartLaunch>& launches) {
+void wait_for(std::span<ShortLaunch> launches) {
     for (;;) {
         throw_if_interrupted();
-        std::vector<pollfd> fds;
-        int wait = 50;
-        for (PartLaunch& launch : launches) {
-            if (launch.over) continue;
-            launch.over = launch.child.poll() || launch.end.seen(launch.child, launch.base);
-            if (launch.over) continue;
-            launch.child.add_poll_fds(fds);
-            if (launch.end.near()) wait = near_end_milliseconds;
+        bool running = false;
+        for (ShortLaunch& launch : launches) {
+            const bool over = launch.poll();
+            running = running || !over;
         }
-        if (fds.empty()) return;
-        ::poll(fds.data(), fds.size(), wait);
+        if (!running) return;
+        sleep_on(launches);
     }
 }
 
@@ -117,7 +101,7 @@ PartCosts costs_of_small_parts(const ProbeRequest& request, const ProbeResult& p
     double cpu_seconds = 0;
     for (std::size_t begin = 0; begin < parts.size(); begin += side_by_side) {
         const std::size_t end = std::min(parts.size(), begin + side_by_side);
-        std::vector<PartLaunch> launches;
+        std::vector<ShortLaunch> launches;
         for (std::size_t i = begin; i < end; ++i)
             launches.push_back(
                 launch(request, size, parts[i].rect, folder / fmt::format("part{}-", i)));

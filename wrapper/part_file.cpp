@@ -1,5 +1,6 @@
 #include "part_file.h"
 
+#include "failure.h"
 #include "fd.h"
 #include "interrupt.h"
 
@@ -14,7 +15,6 @@
 #include <cstring>
 #include <fstream>
 #include <random>
-#include <stdexcept>
 #include <system_error>
 #include <thread>
 
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr int pause_milliseconds = 50;
 
 [[noreturn]] void refuse(const fs::path& target, const std::string& why) {
-    throw std::runtime_error(fmt::format("cannot write '{}': {}", target.string(), why));
+    throw Failure(Exit::file, fmt::format("cannot write '{}': {}", target.string(), why));
 }
 
 // Not fs::canonical: what the last link names need not be there yet.

@@ -17,7 +17,7 @@ bool is_written_into(const std::filesystem::path& target);
 // bytes of a part in the temporary folder.
 class PartFile {
   public:
-    // Throws std::runtime_error that names the target and the reason.
+    // Throws Failure(Exit::file) that names the target and the reason.
     explicit PartFile(const std::filesystem::path& target);
     ~PartFile();
     PartFile(const PartFile&) = delete;

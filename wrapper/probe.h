@@ -11,7 +11,7 @@
 // A scene that cannot be rendered small is asked again with the middle of its picture in full size.
 #pragma once
 
-#include "scene_plan.h"
+#include "probe_result.h"
 #include "stitch.h"
 
 #include <filesystem>

@@ -7,7 +7,6 @@
 #include "worker.h"
 
 #include <fmt/format.h>
-#include <poll.h>
 
 #include <algorithm>
 #include <array>
@@ -120,7 +119,7 @@ void ProbeLaunches::render(const ProbeView& view) {
 void ProbeLaunches::wait() {
     for (;;) {
         throw_if_interrupted();
-        Launch& resolve = launches_.front();
+        ShortLaunch& resolve = launches_.front();
         // It is of no more use once it has met our header.
         if (!resolve.over() && !resolve.child.poll() && met_our_header(resolve.child.output())) {
             resolve.child.kill_now();
@@ -128,19 +127,14 @@ void ProbeLaunches::wait() {
         }
         bool running = !resolve.over();
         for (std::size_t i = 1; i < launches_.size(); ++i) {
-            look_after(launches_[i]);
-            running = running || !launches_[i].over();
+            const bool over = launches_[i].poll();
+            running = running || !over;
         }
         if (!running) return;
         if (resolve.over() && !resolved()) return;
         if (resolve.over() && launches_.size() > 1 && launches_[1].over() && !rendered()) return;
-        sleep();
+        sleep_on(launches_);
     }
-}
-
-void ProbeLaunches::look_after(Launch& launch) {
-    if (launch.over() || launch.child.poll()) return;
-    launch.enough = launch.end.seen(launch.child, launch.folder / image_name);
 }
 
 bool ProbeLaunches::resolved() const {
@@ -172,46 +166,32 @@ std::vector<std::filesystem::path> ProbeLaunches::in_several_orders() const {
 
 double ProbeLaunches::cpu_seconds() const {
     double sum = earlier_cpu_seconds_;
-    for (const Launch& launch : launches_) sum += launch.child.cpu_seconds();
+    for (const ShortLaunch& launch : launches_) sum += launch.child.cpu_seconds();
     return sum;
 }
 
 void ProbeLaunches::start(const std::string& name, const std::vector<std::string>& more) {
     const std::filesystem::path folder = request_.scratch / name;
     std::filesystem::create_directory(folder);
-    ChildRequest child;
-    child.argv.push_back(request_.povray);
+    std::vector<std::string> argv{request_.povray};
     for (const auto* list : {&request_.user_arguments, &more})
-        child.argv.insert(child.argv.end(), list->begin(), list->end());
+        argv.insert(argv.end(), list->begin(), list->end());
     for (const char* ours : {"-D", "-P", "-C", "+V", "+WT1", "All_Console=on"})
-        child.argv.emplace_back(ours);
+        argv.emplace_back(ours);
     // The first launch is asked for the user's own output file; it never comes to write one.
-    if (!launches_.empty())
-        child.argv.push_back(fmt::format("+O\"{}\"", (folder / image_name).string()));
-    child.environment = temporary_files_in(folder);
-    child.timeout_seconds = request_.timeout_seconds;
-    launches_.push_back({folder, ChildProcess::start(child), {}});
+    if (!launches_.empty()) argv.push_back(fmt::format("+O\"{}\"", (folder / image_name).string()));
+    launches_.push_back(
+        ShortLaunch::start(std::move(argv), folder / image_name, request_.timeout_seconds));
     ++started_;
 }
 
-std::filesystem::path ProbeLaunches::image_of(const Launch& launch) {
+std::filesystem::path ProbeLaunches::image_of(const ShortLaunch& launch) {
     if (!launch.succeeded())
         throw Failure(Exit::scene,
                       launch.timed_out()
                           ? "POV-Ray did not end a small render in time (--timeout)"
                           : fmt::format("POV-Ray: {}", parse_error(launch.child.output())));
-    return find_image(launch.folder / image_name);
-}
-
-void ProbeLaunches::sleep() const {
-    std::vector<pollfd> fds;
-    int wait = 50;
-    for (const Launch& launch : launches_) {
-        if (launch.over()) continue;
-        launch.child.add_poll_fds(fds);
-        if (launch.end.near()) wait = near_end_milliseconds;
-    }
-    ::poll(fds.data(), fds.size(), wait);
+    return find_image(launch.base);
 }
 
 }  // namespace mpipov

@@ -1,9 +1,8 @@
 // The launches of a probe, side by side: what they are and when they have said enough.
 #pragma once
 
-#include "child_process.h"
-#include "end_of_work.h"
 #include "povray_command.h"
+#include "short_launch.h"
 
 #include <filesystem>
 #include <optional>
@@ -51,7 +50,6 @@ class ProbeLaunches {
     bool rendered() const { return launches_.at(1).succeeded(); }
     // The scene's own #error, or what it computes from its size; not that the machine is too busy.
     bool refused_by_the_scene() const;
-    bool timed_out() const { return launches_.at(1).timed_out(); }
     std::string_view render_output() const { return launches_.at(1).child.output(); }
 
     // The files. Throw Failure(Exit::scene), saying why, where there is none.
@@ -63,25 +61,11 @@ class ProbeLaunches {
     double cpu_seconds() const;
 
   private:
-    struct Launch {
-        std::filesystem::path folder;
-        ChildProcess child;
-        EndOfWork end;
-        bool enough = false;  // stopped by us, or has done its work; it may not have ended
-
-        bool over() const { return enough || child.ended(); }
-        bool succeeded() const {
-            return enough || (child.ended() && child.result().exit_code == 0);
-        }
-        bool timed_out() const { return child.ended() && child.result().timed_out; }
-    };
     void start(const std::string& name, const std::vector<std::string>& more);
-    static void look_after(Launch& launch);
-    static std::filesystem::path image_of(const Launch& launch);
-    void sleep() const;
+    static std::filesystem::path image_of(const ShortLaunch& launch);
 
     const ProbeRequest& request_;
-    std::vector<Launch> launches_;
+    std::vector<ShortLaunch> launches_;
     int started_ = 0, views_ = 0;
     double earlier_cpu_seconds_ = 0;
 };

@@ -3,6 +3,7 @@
 
 #include "failure.h"
 #include "povray_command.h"
+#include "scene_plan.h"
 #include "scratch.h"
 
 #include <fmt/format.h>

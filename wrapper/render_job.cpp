@@ -183,14 +183,6 @@ std::optional<CostMap> find_costs(const JobSetup& setup, const std::vector<std::
     return std::move(parts.costs);
 }
 
-void write_record(const std::filesystem::path& file, const RunRecord& record) {
-    try {
-        write_run_record(file, record);
-    } catch (const std::runtime_error& error) {
-        throw Failure(Exit::file, error.what());
-    }
-}
-
 }  // namespace
 
 void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
@@ -288,7 +280,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
         record.pixel_sha1 = canvas.sha1();
         record.totals.wall_seconds = clock.seconds();
         record.totals.coordinator_cpu_seconds = own_cpu_seconds(RUSAGE_SELF);
-        write_record(place.record(), record);
+        write_run_record(place.record(), record);
     } catch (const std::exception& error) {
         throw end_of_run(error, journal ? &*journal : nullptr,
                          coordinator ? &*coordinator : nullptr, options.resume);

@@ -108,8 +108,7 @@ RunRecord run_from_json(const nlohmann::json& json);
 
 // Throws std::runtime_error with the file's name.
 RunRecord read_run_record(const std::filesystem::path& file);
-// Writes beside `file` and renames, so that a reader never sees half a record. Throws
-// std::runtime_error with the file's name; nothing is left behind then.
+// As write_whole(): a reader never sees half a record.
 void write_run_record(const std::filesystem::path& file, const RunRecord& record);
 
 }  // namespace mpipov

@@ -1,0 +1,36 @@
+#include "short_launch.h"
+
+#include "povray_command.h"
+
+#include <poll.h>
+
+#include <utility>
+
+namespace mpipov {
+
+ShortLaunch ShortLaunch::start(std::vector<std::string> argv, std::filesystem::path base,
+                               std::optional<double> timeout_seconds) {
+    ChildRequest request;
+    request.argv = std::move(argv);
+    request.environment = temporary_files_in(base.parent_path());
+    request.timeout_seconds = timeout_seconds;
+    return {std::move(base), ChildProcess::start(request)};
+}
+
+bool ShortLaunch::poll() {
+    if (!over() && !child.poll()) enough = end.seen(child, base);
+    return over();
+}
+
+void sleep_on(std::span<const ShortLaunch> launches) {
+    std::vector<pollfd> fds;
+    int wait = 50;
+    for (const ShortLaunch& launch : launches) {
+        if (launch.over()) continue;
+        launch.child.add_poll_fds(fds);
+        if (launch.end.near()) wait = near_end_milliseconds;
+    }
+    ::poll(fds.data(), fds.size(), wait);
+}
+
+}  // namespace mpipov
