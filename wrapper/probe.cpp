@@ -74,13 +74,14 @@ std::string text_of(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-int block_size(const std::string& ini) {
-    const auto settings = parse_ini(ini);
-    const auto found = settings.find("render_block_size");
-    if (found == settings.end()) return 0;
-    int size = 0;
-    std::from_chars(found->second.data(), found->second.data() + found->second.size(), size);
-    return std::max(0, size);
+// The number that the settings give `key`, where they do.
+int number_in(const std::map<std::string, std::string>& settings, const std::string& key,
+              int fallback) {
+    const auto found = settings.find(key);
+    if (found == settings.end()) return fallback;
+    int number = fallback;
+    std::from_chars(found->second.data(), found->second.data() + found->second.size(), number);
+    return std::max(0, number);
 }
 
 PixelLayout layout_of_sample(const std::filesystem::path& sample) {
@@ -141,6 +142,7 @@ Probe probe_once(const ProbeRequest& request) {
     }
     probe.style.sample = launches.sample();
     result.report = parse_report(launches.render_output());
+    result.plain = parse_report(launches.plain_output());
     probe.style.extension = std::filesystem::path(image->output_file).extension().string();
     probe.style.jpeg_quality = image->jpeg_quality;
     probe.style.rle = image->rle;
@@ -152,7 +154,9 @@ Probe probe_once(const ProbeRequest& request) {
     result.stored = {image->width, image->height, layout.channels, probe.style.type,
                      std::string(to_string(layout.depth))};
     const std::string settings = text_of(launches.settings_file());
-    result.user_block = block_size(settings);
+    const auto numbers = parse_ini(settings);
+    result.user_block = number_in(numbers, "render_block_size", 0);
+    result.quality = std::min(number_in(numbers, "quality", 9), 9);  // 10 and 11 are 9
     probe.settings = ini_settings(settings);
     const bool diffused = image->dithering.find("diffusion") != std::string::npos;
     const auto orders = launches.in_several_orders();
