@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* not_asked =
     "what it costs takes more small renders, which --dry-run and long runs make";
-constexpr const char* no_time = "the small render is over before POV-Ray's clock ticks";
+constexpr const char* no_time =
+    "what it costs is not told: the small render is over before POV-Ray's clock ticks";
 
 // The costs of what the small render has more than another, in steps; all in its seconds.
 class Steps {
