@@ -40,12 +40,14 @@ The renders at +Q4, +Q5, +Q6 and +Q8 come after the probe, and only with `--dry-
 take less than 1 % of the predicted wall time (from about 45 s on; 0.32 s of them is POV-Ray's
 start-up). A short run is not made longer: its `run.json` has no `area_light`, `focal_blur` and
 `subsurface`, since nobody asked (leaving them out says that; `"on": false` would not be true), and
-the costs of the others but antialiasing are null. With `--dry-run` they are larger than the probe's where those are
-over within 0.1 s. The plan itself is the probe's alone: a dry run plans what the run does.
+the costs of the others but antialiasing are null. With `--dry-run` they are larger than the probe's
+where those are over within 0.1 s. The plan itself is the probe's alone: a dry run plans what the run does.
 
 The three renders in other orders and sizes of blocks are the renders of the same region that differ
 only in what was traced before. They are three because two are not enough: where random numbers are
 drawn in few blocks, one other order may leave those as they were ([povray.md](povray.md)).
+
+What it saves to follow the plan: [savings.md](savings.md).
 """
 
 
