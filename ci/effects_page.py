@@ -37,11 +37,12 @@ the cost is null, and `why` says how much it may be. So it is where media, photo
 meet, between which POV-Ray has no level, and for isosurfaces. An effect that is off costs 0.
 
 The renders at +Q4, +Q5, +Q6 and +Q8 come after the probe, and only with `--dry-run` or where they
-take less than 1 % of the predicted wall time (from about 45 s on; 0.32 s of them is POV-Ray's
-start-up). A short run is not made longer: its `run.json` has no `area_light`, `focal_blur` and
-`subsurface`, since nobody asked (leaving them out says that; `"on": false` would not be true), and
-the costs of the others but antialiasing are null. With `--dry-run` they are larger than the probe's
-where those are over within 0.1 s. The plan itself is the probe's alone: a dry run plans what the run does.
+take less than 1 % of the predicted wall time, in the size of the probe's or in half of it (from about
+45 s on two cores; 0.32 s of them is POV-Ray's start-up). A short run is not made longer: its
+`run.json` has no `area_light`, `focal_blur` and `subsurface`, since nobody asked (leaving them out
+says that; `"on": false` would not be true), and the costs of the others but antialiasing are null.
+With `--dry-run` they are larger than the probe's where those are over within 0.1 s. The plan itself
+is the probe's alone: a dry run plans what the run does.
 
 The three renders in other orders and sizes of blocks are the renders of the same region that differ
 only in what was traced before. They are three because two are not enough: where random numbers are

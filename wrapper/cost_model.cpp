@@ -50,7 +50,7 @@ long long counter(const LaunchReport& report, const std::string& name) {
 ProbeResult with_sane_times(ProbeResult probe) {
     std::vector<LaunchReport*> reports{&probe.report, &probe.plain};
     if (probe.look) {
-        reports.push_back(&probe.look->report);
+        if (probe.look->report) reports.push_back(&*probe.look->report);
         for (auto& [level, report] : probe.look->plain) reports.push_back(&report);
         probe.look->pixels = std::max(1LL, probe.look->pixels);
     }

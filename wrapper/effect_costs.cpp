@@ -61,8 +61,8 @@ double camera_rays(const QualityLook& look) {
 
 EffectCosts effect_costs(const ProbeResult& given) {
     ProbeResult probe = with_sane_times(given);
-    if (probe.look) {
-        probe.report = probe.look->report;
+    if (probe.look && probe.look->report) {
+        probe.report = *probe.look->report;
         probe.plain = probe.look->plain.rbegin()->second;
         probe.probe_pixels = probe.look->pixels;
     }
@@ -71,7 +71,7 @@ EffectCosts effect_costs(const ProbeResult& given) {
 
     const double ratio =
         static_cast<double>(probe.image.region.area()) / static_cast<double>(probe.probe_pixels);
-    const double once = probe.plain.trace_cpu;  // each pixel
+    double once = probe.plain.trace_cpu;  // each pixel
     double once_of_render = costs.render;
     costs.antialiasing.cpu_seconds = 0;
     if (probe.report.antialiasing.on) {
@@ -87,6 +87,7 @@ EffectCosts effect_costs(const ProbeResult& given) {
             cost->why_none = not_asked;
         return costs;
     }
+    once = probe.look->plain.rbegin()->second.trace_cpu;
     const double rays = std::max(1.0, camera_rays(*probe.look));
     Steps steps(once, once > 0 ? once_of_render / once / rays : 0);
     const auto seconds = [&](int level) { return at_level(*probe.look, level).trace_cpu; };

@@ -31,7 +31,7 @@ ProbeResult probe_of(double trace_cpu, double plain_cpu) {
 
 // At the levels 4, 5, 6, 8 and 9.
 ProbeResult looked_at(ProbeResult probe, std::initializer_list<double> trace_cpu) {
-    QualityLook look{100, probe.report, {}};
+    QualityLook look{100, {}, {}};
     const int levels[] = {4, 5, 6, 8, 9};
     const int* level = levels;
     for (const double seconds : trace_cpu) look.plain[*level++] = traced(seconds);
@@ -52,7 +52,7 @@ double sum_of(const EffectCosts& costs) {
 
 TEST(EffectCosts, AreTheDifferencesOfTheLevels) {
     ProbeResult probe = looked_at(probe_of(2, 1), {0.1, 0.3, 0.6, 0.8, 1});
-    probe.look->report.antialiasing.on = true;
+    probe.report.antialiasing.on = true;
     const EffectCosts costs = effect_costs(probe);
     EXPECT_DOUBLE_EQ(costs.render, 200);
     EXPECT_DOUBLE_EQ(costs.area_light.cpu_seconds.value(), 20);
@@ -84,7 +84,7 @@ TEST(EffectCosts, NeverSumToMoreThanTheRender) {
     for (const auto& seconds : series)
         for (const double trace : {0.0, 0.1, 1.0, -3.0, huge}) {
             ProbeResult probe = looked_at(probe_of(trace, trace), seconds);
-            probe.look->report.antialiasing.on = true;
+            probe.report.antialiasing.on = true;
             const EffectCosts costs = effect_costs(probe);
             EXPECT_LE(sum_of(costs), costs.render * (1 + 1e-12));
         }
@@ -117,6 +117,17 @@ TEST(EffectCosts, ALargerPictureCountsByItsOwnPixels) {
     const EffectCosts costs = effect_costs(probe);
     EXPECT_DOUBLE_EQ(costs.render, 100);
     EXPECT_DOUBLE_EQ(costs.area_light.cpu_seconds.value(), 25);
+}
+
+TEST(EffectCosts, ASmallerPictureSharesOutWhatTheProbeFound) {
+    ProbeResult probe = looked_at(probe_of(2, 1), {0.1, 0.2, 0.2, 0.2, 0.25});
+    probe.report.antialiasing.on = true;
+    probe.look->pixels = 25;
+    const EffectCosts costs = effect_costs(probe);
+    EXPECT_DOUBLE_EQ(costs.render, 200);
+    EXPECT_DOUBLE_EQ(costs.antialiasing.cpu_seconds.value(), 100);
+    EXPECT_DOUBLE_EQ(costs.area_light.cpu_seconds.value(), 40) << "0.1 of 0.25 without it";
+    EXPECT_LE(sum_of(costs), costs.render);
 }
 
 TEST(EffectCosts, ALevelAboveTheUsersIsTheUsers) {

@@ -13,9 +13,9 @@ namespace mpipov {
 // 5 area lights, 6 refraction and transparency, 8 reflection and normals, 9 media, radiosity,
 // photons and subsurface scattering (docs/povray.md). What is missing between two is the same.
 struct QualityLook {
-    long long pixels = 1;               // how many the picture has
-    LaunchReport report;                // as the user has it
-    std::map<int, LaunchReport> plain;  // by level, without antialiasing; the last is the user's
+    long long pixels = 1;                // how many the picture has
+    std::optional<LaunchReport> report;  // as the user has it, where it is larger than the probe's
+    std::map<int, LaunchReport> plain;   // by level, without antialiasing; the last is the user's
 };
 
 // What the small probe renders said.

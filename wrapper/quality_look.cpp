@@ -2,6 +2,7 @@
 
 #include "cost_model.h"
 #include "launch_costs.h"
+#include "probe_launches.h"
 #include "short_launch.h"
 
 #include <fmt/format.h>
@@ -18,18 +19,16 @@ namespace {
 constexpr double readable_seconds = 0.1;
 // What a render takes that its clock does not show at all.
 constexpr double unseen_seconds = 0.0005;
-constexpr double most_scale = 8;
+constexpr double most_scale = 8, least_scale = 0.5;
 // Of gathering radiosity before it, which is done again and not what is looked for.
 constexpr double most_gathering_seconds = 1;
 constexpr double noticed_share = 0.01;
 
-ProbeView view_of(const ProbeRequest& request, const ProbeResult& probe, LookSize size) {
+ProbeView view_of(const ProbeRequest& request, const ProbeResult& probe, double scale) {
     if (!probe.seen_whole) return middle_view({probe.image.width, probe.image.height});
     ProbeView view = small_view(request.user_arguments);
-    if (size == LookSize::as_probe) return view;
-    const double scale = readable_scale(probe, view.size);
-    view.size.width = static_cast<int>(view.size.width * scale);
-    view.size.height = static_cast<int>(view.size.height * scale);
+    view.size.width = std::max(2, static_cast<int>(view.size.width * scale));
+    view.size.height = std::max(2, static_cast<int>(view.size.height * scale));
     return view;
 }
 
@@ -93,20 +92,28 @@ double readable_scale(const ProbeResult& given, const ImageSize& probe_size) {
     return std::max(1.0, scale);
 }
 
-bool is_hardly_noticed(const ProbeResult& given, double wall_seconds, int cores) {
+std::optional<double> unnoticed_scale(const ProbeResult& given, double wall_seconds, int cores) {
     const ProbeResult probe = with_sane_times(given);
-    // None of them shoots photons or gathers radiosity, nor traces more than the user's own.
-    const double each = bare_launch_cpu_seconds + probe.report.parse_cpu + probe.plain.trace_cpu;
-    const auto launches = static_cast<double>(levels_below(probe.quality).size());
-    if (launches < 1) return true;
-    const double wall = startup_wall_seconds +
-                        launches * each / std::clamp(static_cast<double>(cores), 1.0, launches);
-    return wall <= noticed_share * wall_seconds;
+    const auto levels = static_cast<double>(levels_below(probe.quality).size());
+    if (levels < 1) return 1;  // nothing is launched
+    const auto wall = [&](double launches, double scale) {
+        // Those below the user's own quality trace no more than it does.
+        const double each = bare_launch_cpu_seconds + probe.report.parse_cpu +
+                            probe.plain.trace_cpu * scale * scale;
+        return startup_wall_seconds +
+               launches * each / std::clamp(static_cast<double>(cores), 1.0, launches);
+    };
+    if (wall(levels, 1) <= noticed_share * wall_seconds) return 1;
+    // The user's own quality is asked for again, with its photons and radiosity.
+    const double before = probe.plain.photon_cpu + probe.plain.radiosity_cpu;
+    const bool fits = wall(levels + 1, least_scale) + before <= noticed_share * wall_seconds;
+    return probe.seen_whole && fits ? std::optional(least_scale) : std::nullopt;
 }
 
-LookedAt look_at_qualities(const ProbeRequest& request, const ProbeResult& probe, LookSize size) {
-    const ProbeView view = view_of(request, probe, size);
+LookedAt look_at_qualities(const ProbeRequest& request, const ProbeResult& probe, double scale) {
+    const ProbeView view = view_of(request, probe, scale);
     const bool as_probe = pixels_of(view) == probe.probe_pixels;
+    const bool larger = pixels_of(view) > probe.probe_pixels;
     const std::vector<int> levels = levels_below(probe.quality);
     const std::vector<std::string> plain = view_arguments(view, true);
     QualityLaunches launches(request);
@@ -115,18 +122,16 @@ LookedAt look_at_qualities(const ProbeRequest& request, const ProbeResult& probe
         arguments.push_back(fmt::format("+Q{}", level));
         launches.start(fmt::format("quality{}", level), arguments);
     }
-    if (!as_probe) {
-        launches.start("quality-all", plain);
-        launches.start("quality-report", view_arguments(view, false));
-    }
+    if (!as_probe) launches.start("quality-all", plain);
+    if (larger) launches.start("quality-report", view_arguments(view, false));
     launches.wait();
     LookedAt result{{}, launches.cpu_seconds(), launches.count()};
     if (!launches.all_succeeded()) return result;
 
-    QualityLook look{pixels_of(view), probe.report, {}};
+    QualityLook look{pixels_of(view), {}, {}};
     for (std::size_t i = 0; i < levels.size(); ++i) look.plain[levels[i]] = launches.report(i);
     look.plain[probe.quality] = as_probe ? probe.plain : launches.report(levels.size());
-    if (!as_probe) look.report = launches.report(levels.size() + 1);
+    if (larger) look.report = launches.report(levels.size() + 1);
     result.look = std::move(look);
     return result;
 }

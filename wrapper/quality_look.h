@@ -3,8 +3,8 @@
 // waits for the answer or the render is so long that nobody sees them.
 #pragma once
 
+#include "povray_command.h"
 #include "probe.h"
-#include "probe_launches.h"
 #include "probe_result.h"
 
 #include <optional>
@@ -19,21 +19,20 @@ struct LookedAt {
     int launches = 0;
 };
 
-enum class LookSize {
-    as_probe,  // what the probe's own renders show
-    readable   // larger where those are over before POV-Ray's clock ticks
-};
-
-// `probe` is the answer of the same request. Throws Failure(Exit::interrupted).
-LookedAt look_at_qualities(const ProbeRequest& request, const ProbeResult& probe, LookSize size);
+// `probe` is the answer of the same request, `scale` how many times larger than its renders these
+// are to be: beside larger ones the user's own antialiasing is looked at again. A scene that was
+// not seen whole has no other size. Throws Failure(Exit::interrupted).
+LookedAt look_at_qualities(const ProbeRequest& request, const ProbeResult& probe, double scale);
 
 // The levels below the user's own that add something.
 std::vector<int> levels_below(int quality);
 
-// Times larger than the probe's render, so that it takes long enough to be told.
+// The scale at which the renders take long enough to be told; at least 1. `probe_size` is that of
+// the probe's renders.
 double readable_scale(const ProbeResult& probe, const ImageSize& probe_size);
 
-// Whether a run of so many predicted seconds on so many cores takes 1 % longer at most.
-bool is_hardly_noticed(const ProbeResult& probe, double wall_seconds, int cores);
+// The largest scale, at most 1, at which a run of so many predicted seconds on so many cores takes
+// 1 % longer at most; none where it is noticed at any.
+std::optional<double> unnoticed_scale(const ProbeResult& probe, double wall_seconds, int cores);
 
 }  // namespace mpipov

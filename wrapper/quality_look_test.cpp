@@ -53,16 +53,28 @@ TEST(QualityLook, IsLargeEnoughToBeTold) {
 }
 
 TEST(QualityLook, CostsALongRunOnePercentAtMost) {
-    EXPECT_FALSE(is_hardly_noticed(probe_of(0.001), 1, 2));
-    EXPECT_FALSE(is_hardly_noticed(probe_of(0.001), 30, 2)) << "its launches idle 0.32 s";
-    EXPECT_TRUE(is_hardly_noticed(probe_of(0.001), 45, 2));
-    EXPECT_FALSE(is_hardly_noticed(probe_of(0.2), 60, 2));
-    EXPECT_FALSE(is_hardly_noticed(probe_of(0.001), 45, 0)) << "one core at least";
+    const auto scale = [](const ProbeResult& probe, double wall, int cores) {
+        return unnoticed_scale(probe, wall, cores).value_or(0);
+    };
+    EXPECT_EQ(scale(probe_of(0.001), 1, 2), 0);
+    EXPECT_EQ(scale(probe_of(0.001), 30, 2), 0) << "its launches idle 0.32 s";
+    EXPECT_EQ(scale(probe_of(0.001), 45, 2), 1);
+    EXPECT_EQ(scale(probe_of(0.001), 45, 0), 0) << "one core at least";
+    EXPECT_EQ(scale(probe_of(0.2), 45, 2), 0);
+    EXPECT_EQ(scale(probe_of(1), 256, 1), 0.5) << "without antialiasing all of the render";
+    EXPECT_EQ(scale(probe_of(10), 2560, 1), 0.5);
+    EXPECT_EQ(scale(probe_of(10), 5120, 1), 1);
     ProbeResult parses = probe_of(0.001);
     parses.report.parse_cpu = 5;
-    EXPECT_FALSE(is_hardly_noticed(parses, 600, 2));
+    EXPECT_EQ(scale(parses, 600, 2), 0);
     parses.quality = 3;
-    EXPECT_TRUE(is_hardly_noticed(parses, 1, 2)) << "nothing is launched";
+    EXPECT_EQ(scale(parses, 1, 2), 1) << "nothing is launched";
+    ProbeResult gathers = probe_of(1);
+    gathers.plain.radiosity_cpu = 5;
+    EXPECT_EQ(scale(gathers, 256, 1), 0);
+    ProbeResult middle = probe_of(1);
+    middle.seen_whole = false;
+    EXPECT_EQ(scale(middle, 256, 1), 0) << "it has no other size";
 }
 
 // With the installed POV-Ray.
@@ -73,8 +85,7 @@ class QualityLookProbe : public testing::Test {
             GTEST_SKIP() << "there is no povray on the PATH";
     }
 
-    void ask(const std::string& more, const std::vector<std::string>& options,
-             LookSize size = LookSize::as_probe) {
+    void ask(const std::string& more, const std::vector<std::string>& options, double scale = 1) {
         const std::string scene = (scratch_.path() / "scene.pov").string();
         std::ofstream(scene) << "#version 3.7; global_settings { assumed_gamma 1 }\n" << more;
         std::vector<std::string> arguments{scene, "+W64", "+H48",
@@ -83,7 +94,7 @@ class QualityLookProbe : public testing::Test {
         ProbeRequest request{"povray", quote_arguments(arguments), scratch_.path() / "probe", 60.0};
         result_ = run_probe(request).result;
         request.scratch = scratch_.path() / "look";
-        looked_ = look_at_qualities(request, result_, size);
+        looked_ = look_at_qualities(request, result_, scale);
         result_.look = looked_.look;
     }
     bool finds(const char* effect) const { return find_effects(result_).at(effect).on; }
@@ -114,12 +125,21 @@ TEST_F(QualityLookProbe, FindsFocalBlur) {
 }
 
 TEST_F(QualityLookProbe, FindsAreaLights) {
-    ask(soft, {}, LookSize::readable);
+    ask(soft, {}, 2);
     EXPECT_EQ(looked_.launches, 6) << "the larger picture at the user's quality too";
     ASSERT_TRUE(looked_.look);
     EXPECT_EQ(looked_.look->pixels, 64 * 48);
     EXPECT_TRUE(finds("area_light"));
     EXPECT_FALSE(finds("focal_blur"));
+}
+
+TEST_F(QualityLookProbe, FindsThemInASmallerPicture) {
+    ask(soft, {"+A0.3"}, 0.5);
+    EXPECT_EQ(looked_.launches, 5);
+    ASSERT_TRUE(looked_.look);
+    EXPECT_EQ(looked_.look->pixels, 16 * 12);
+    EXPECT_FALSE(looked_.look->report);
+    EXPECT_TRUE(finds("area_light"));
 }
 
 TEST_F(QualityLookProbe, DoesNotFindWhatTheUserLeavesOut) {
@@ -136,8 +156,7 @@ TEST_F(QualityLookProbe, AQualityOfElevenIsNine) {
 }
 
 TEST_F(QualityLookProbe, SaysNothingWhereALaunchFails) {
-    ask(std::string(soft) + "#if (image_width > 40) #error \"too large\" #end", {},
-        LookSize::readable);
+    ask(std::string(soft) + "#if (image_width > 40) #error \"too large\" #end", {}, 2);
     EXPECT_EQ(looked_.launches, 6);
     EXPECT_FALSE(looked_.look);
     EXPECT_EQ(find_effects(result_).count("area_light"), 0u);
