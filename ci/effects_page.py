@@ -44,6 +44,9 @@ says that; `"on": false` would not be true), and the costs of the others but ant
 With `--dry-run` they are larger than the probe's where those are over within 0.1 s. The plan itself
 is the probe's alone: a dry run plans what the run does.
 
+Fog, bumps of normals and crand have neither a counter nor a level of their own, so mpipov has no
+name for them; that crand makes pixels depend on the order is found as such.
+
 The three renders in other orders and sizes of blocks are the renders of the same region that differ
 only in what was traced before. They are three because two are not enough: where random numbers are
 drawn in few blocks, one other order may leave those as they were ([povray.md](povray.md)).
