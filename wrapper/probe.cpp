@@ -74,6 +74,18 @@ std::string text_of(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
+bool is_on(const std::map<std::string, std::string>& settings, const char* key) {
+    const auto found = settings.find(key);
+    if (found == settings.end()) return false;
+    std::string value = found->second;
+    std::ranges::transform(value, value.begin(), [](unsigned char c) { return std::tolower(c); });
+    return value == "on" || value == "true" || value == "yes" || value == "1";
+}
+
+bool has_own_radiosity_cache(const std::map<std::string, std::string>& settings) {
+    return is_on(settings, "radiosity_from_file") || is_on(settings, "radiosity_to_file");
+}
+
 // The number that the settings give `key`, where they do.
 int number_in(const std::map<std::string, std::string>& settings, const std::string& key,
               int fallback) {
@@ -154,9 +166,10 @@ Probe probe_once(const ProbeRequest& request) {
     result.stored = {image->width, image->height, layout.channels, probe.style.type,
                      std::string(to_string(layout.depth))};
     const std::string settings = text_of(launches.settings_file());
-    const auto numbers = parse_ini(settings);
-    result.user_block = number_in(numbers, "render_block_size", 0);
-    result.quality = std::min(number_in(numbers, "quality", 9), 9);  // 10 and 11 are 9
+    const auto values = parse_ini(settings);
+    result.user_block = number_in(values, "render_block_size", 0);
+    result.quality = std::min(number_in(values, "quality", 9), 9);  // 10 and 11 are 9
+    result.own_cache = has_own_radiosity_cache(values);
     probe.settings = ini_settings(settings);
     const bool diffused = image->dithering.find("diffusion") != std::string::npos;
     const auto orders = launches.in_several_orders();

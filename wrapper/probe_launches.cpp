@@ -101,7 +101,8 @@ std::vector<std::string> small_command(const ProbeRequest& request,
     std::vector<std::string> argv{request.povray};
     for (const auto* list : {&request.user_arguments, &more})
         argv.insert(argv.end(), list->begin(), list->end());
-    for (const char* ours : {"-D", "-P", "-C", "+V", "+WT1", "All_Console=on"})
+    // A user's radiosity cache is not for samples of a small picture.
+    for (const char* ours : {"-D", "-P", "-C", "+V", "+WT1", "-RFO", "All_Console=on"})
         argv.emplace_back(ours);
     return argv;
 }
