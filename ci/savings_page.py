@@ -5,9 +5,9 @@ from statistics import median
 from markdown_table import table
 
 MEASURES = (("launches", "launches"), ("cpu_seconds", "CPU s"), ("wall_seconds", "wall s"))
-TEXT = """Made by `ci/savings.py measure` and `ci/savings.py page`: every scene of `scenes/effects` and every
-third of Debian's of `scenes/debian_effects.json`, {width} x {height} pixels, rendered by `mpipov` and
-judged against a serial render. *With the plan* is what mpipov's probe says of the scene followed:
+TEXT = """Made by `ci/savings.py measure` and `ci/savings.py page`: {number} scenes of `scenes/effects` and, every
+third, of Debian's in `scenes/debian_effects.json` (without subsurface/subsurface, which takes too long),
+{width} x {height} pixels, rendered by `mpipov` and judged against a serial render. *With the plan* is what mpipov's probe says of the scene followed:
 mpipov's own grid and threads; a radiosity cache, at a quarter of the size, where there is radiosity; the
 noise floor and SSIM where pixels depend on the order, else one serial render, which must be met bit for
 bit. *Everything on* is what is needed where nothing is known: halo seams, one thread a launch and the
@@ -58,7 +58,7 @@ def page(found, size):
     names = [name for _, name in MEASURES]
     return "\n".join([
         "# What it saves to follow the plan", "",
-        TEXT.format(width=size[0], height=size[1]), "",
+        TEXT.format(width=size[0], height=size[1], number=len(found)), "",
         "Sums, with the plan / everything on, and the median of the ratios of each scene.", "",
         table(("scenes", "number", *names, *(f"{name}, ratio" for name in names)),
               total_rows(found)), "",
