@@ -24,16 +24,6 @@ std::vector<int> lanes_of(const std::vector<RankRecord>& ranks) {
     return lanes;
 }
 
-nlohmann::json about(const SectionRecord& record) {
-    return {{"rank", record.rank},
-            {"host", record.host},
-            {"start", record.start},
-            {"end", record.end},
-            {"wall_seconds", record.wall_seconds},
-            {"cpu_seconds", record.cpu_seconds},
-            {"attempts", record.attempts}};
-}
-
 }  // namespace
 
 Coordinator::Coordinator(CoordinatorSetup setup, Transport& transport, Canvas& canvas,
@@ -64,27 +54,6 @@ Coordinator::Coordinator(CoordinatorSetup setup, Transport& transport, Canvas& c
         }
     }
     for (std::size_t i = 0; i < seams_.size(); ++i) seams_[i].seam = overlap_.seams()[i];
-}
-
-void Coordinator::resume(int section, const nlohmann::json& what,
-                         std::span<const std::byte> pixels) {
-    Progress& progress = sections_.at(static_cast<std::size_t>(section));
-    SectionRecord& record = progress.record;
-    const Rect& render = record.section.render;
-    canvas_.place(render, pixels, record.section.keep);
-    overlap_.take(section, render, pixels);
-    record.rank = what.at("rank");
-    record.host = what.at("host");
-    record.start = what.at("start");
-    record.end = what.at("end");
-    record.wall_seconds = what.at("wall_seconds");
-    record.cpu_seconds = what.at("cpu_seconds");
-    record.attempts = what.at("attempts");
-    record.resumed = true;
-    set_fraction(progress, 1);
-    ++sections_done_;
-    schedule_.finished(section);
-    for (const int seam : overlap_.finish(section)) check_seam(seam);
 }
 
 void Coordinator::start() {
@@ -273,7 +242,7 @@ void Coordinator::take_done(const Message& message) {
         schedule_.finished(record.section.id);
         check_repair(progress);
     } else {
-        if (journal_ != nullptr) journal_->finish(record.section.id, about(record));
+        if (journal_ != nullptr) journal_->finish(record.section.id, about_section(record));
         schedule_.finished(record.section.id);
         // `progress` dangles as soon as repair() adds a section.
         for (const int seam : overlap_.finish(record.section.id)) check_seam(seam);
@@ -302,23 +271,6 @@ void Coordinator::take_failed(const Message& message) {
 double Coordinator::fraction() const {
     if (finished()) return 1;
     return std::clamp(pixels_done_ / pixels_, furthest_, 1.0);
-}
-
-void Coordinator::fill(RunRecord& record) const {
-    record.sections.clear();
-    record.repairs.clear();
-    for (const Progress& progress : sections_)
-        (progress.seam < 0 ? record.sections : record.repairs).push_back(progress.record);
-    record.seams = seams_;
-    record.ranks = setup_.ranks;
-    record.totals.launches += totals_.launches;
-    record.totals.retries += totals_.retries;
-    record.totals.copies += totals_.copies;
-    record.totals.cpu_seconds += totals_.cpu_seconds;
-    for (const std::string& warning : warnings_)
-        if (std::find(record.warnings.begin(), record.warnings.end(), warning) ==
-            record.warnings.end())
-            record.warnings.push_back(warning);
 }
 
 }  // namespace mpipov

@@ -37,6 +37,9 @@ struct CoordinatorSetup {
     bool gathers = false;             // what comes back are radiosity samples, and no pixels
 };
 
+// Of a finished section, for the journal; Coordinator::resume() takes it back.
+nlohmann::json about_section(const SectionRecord& record);
+
 class Coordinator {
   public:
     // `clock` gives seconds since the run began; `journal` may be null.

@@ -37,7 +37,7 @@ std::string gather_radiosity(const GatherSetup& setup, const GatherContext& cont
     RadiosityCache cache;
     Journal::Cache kept;
     if (context.journal != nullptr) kept = context.journal->cache();
-    cache.add(kept.text);
+    cache.add(kept.waves > 0 ? kept.text : setup.first);
     Canvas nothing({1, 1, 1, Depth::uint8});
     for (std::size_t i = static_cast<std::size_t>(kept.waves); i < setup.waves.size(); ++i) {
         const GatherWave& wave = setup.waves[i];

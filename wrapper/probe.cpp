@@ -175,9 +175,10 @@ Probe probe_once(const ProbeRequest& request) {
     const auto orders = launches.in_several_orders();
     result.seen_whole = !refuses_to_be_small;
     result.order_dependent =
-        diffused || !std::all_of(orders.begin(), orders.end(), [&](const auto& other) {
-            return same_pixels(orders.front(), other);
-        });
+        diffused || result.report.radiosity ||
+        !std::all_of(orders.begin(), orders.end(),
+                     [&](const auto& other) { return same_pixels(orders.front(), other); });
+    if (result.seen_whole) probe.radiosity_cache = launches.radiosity_cache();
     probe.warnings = parse_warnings(launches.render_output());
     probe.cpu_seconds = launches.cpu_seconds();
     probe.launches = launches.count();

@@ -33,6 +33,7 @@ struct Probe {
     ProbeResult result;
     FileStyle style;
     IniSettings settings;  // of the user's own command, with our +HI and +GI
+    std::string radiosity_cache;  // samples of a small render of the whole picture; may be empty
     std::vector<std::string> warnings;
     double cpu_seconds = 0;
     int launches = 0;

@@ -33,6 +33,7 @@ constexpr int probe_block = 8;
 struct Order {
     int number, block;
 };
+constexpr std::size_t first_other_order = 3;  // of the launches
 constexpr std::array other_orders{Order{2, 7}, Order{5, 4}};
 
 // The number in +W640 or Width=640.
@@ -127,7 +128,10 @@ void ProbeLaunches::render(const ProbeView& view) {
     start(fmt::format("render{}", number), view_arguments(view, false));
     // Antialiasing of method 1 depends on where blocks end, and has no random numbers of its own.
     const std::vector<std::string> arguments = view_arguments(view, true);
-    start(fmt::format("render{}-order0", number), arguments);
+    cache_ = request_.scratch / fmt::format("radiosity{}", number);
+    // Not what a user's own cache holds: these samples are a coarse pass for sections to share.
+    start(fmt::format("render{}-order0", number), arguments,
+          {"-RFI", "+RFO", fmt::format("+RF\"{}\"", cache_.string())});
     for (const Order& order : other_orders) {
         std::vector<std::string> other_order = arguments;
         other_order.push_back(fmt::format("+BS{}", order.block));
@@ -145,6 +149,7 @@ void ProbeLaunches::wait() {
             resolve.child.kill_now();
             resolve.enough = true;
         }
+        if (takes_radiosity_samples()) end_other_orders();
         bool running = !resolve.over();
         for (std::size_t i = 1; i < launches_.size(); ++i) {
             const bool over = launches_[i].poll();
@@ -154,6 +159,21 @@ void ProbeLaunches::wait() {
         if (resolve.over() && !resolved()) return;
         if (resolve.over() && launches_.size() > 1 && launches_[1].over() && !rendered()) return;
         sleep_on(launches_);
+    }
+}
+
+// POV-Ray makes the file at once and writes to it while it renders.
+bool ProbeLaunches::takes_radiosity_samples() const {
+    std::error_code none;
+    const auto size = std::filesystem::file_size(cache_, none);
+    return !none && size > 0;
+}
+
+void ProbeLaunches::end_other_orders() {
+    for (std::size_t i = first_other_order; i < launches_.size(); ++i) {
+        if (launches_[i].over()) continue;
+        launches_[i].child.kill_now();
+        launches_[i].enough = true;
     }
 }
 
@@ -180,8 +200,15 @@ std::filesystem::path ProbeLaunches::sample() const {
 
 std::vector<std::filesystem::path> ProbeLaunches::in_several_orders() const {
     std::vector<std::filesystem::path> images;
-    for (std::size_t i = 2; i < launches_.size(); ++i) images.push_back(image_of(launches_[i]));
+    const bool radiosity = takes_radiosity_samples();
+    const std::size_t end = radiosity ? first_other_order : launches_.size();
+    for (std::size_t i = 2; i < end; ++i) images.push_back(image_of(launches_[i]));
     return images;
+}
+
+std::string ProbeLaunches::radiosity_cache() const {
+    std::ifstream in(cache_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 double ProbeLaunches::cpu_seconds() const {
@@ -190,10 +217,12 @@ double ProbeLaunches::cpu_seconds() const {
     return sum;
 }
 
-void ProbeLaunches::start(const std::string& name, const std::vector<std::string>& more) {
+void ProbeLaunches::start(const std::string& name, const std::vector<std::string>& more,
+                          const std::vector<std::string>& last) {
     const std::filesystem::path folder = request_.scratch / name;
     std::filesystem::create_directory(folder);
     std::vector<std::string> argv = small_command(request_, more);
+    argv.insert(argv.end(), last.begin(), last.end());
     // The first launch is asked for the user's own output file; it never comes to write one.
     if (!launches_.empty()) argv.push_back(fmt::format("+O\"{}\"", small_image(folder).string()));
     launches_.push_back(

@@ -66,18 +66,25 @@ class ProbeLaunches {
 
     // The files. Throw Failure(Exit::scene), saying why, where there is none.
     std::filesystem::path sample() const;
-    // Of one and the same picture, without antialiasing.
+    // Of one and the same picture, without antialiasing. Only the first one where there is
+    // radiosity: its samples are taken in the order of rendering, and that is known.
     std::vector<std::filesystem::path> in_several_orders() const;
+    // The radiosity samples of the first one, as POV-Ray writes them; empty without radiosity.
+    std::string radiosity_cache() const;
 
     int count() const { return started_; }  // all that were ever started
     double cpu_seconds() const;
 
   private:
-    void start(const std::string& name, const std::vector<std::string>& more);
+    void start(const std::string& name, const std::vector<std::string>& more,
+               const std::vector<std::string>& last = {});
+    bool takes_radiosity_samples() const;
+    void end_other_orders();
     static std::filesystem::path image_of(const ShortLaunch& launch);
 
     const ProbeRequest& request_;
     std::vector<ShortLaunch> launches_;
+    std::filesystem::path cache_;  // of the launch in the first order
     int started_ = 0, views_ = 0;
     double earlier_cpu_seconds_ = 0;
 };

@@ -17,6 +17,7 @@
 #include "probe.h"
 #include "progress.h"
 #include "resume.h"
+#include "run_setup.h"
 #include "scene_plan.h"
 #include "scratch.h"
 #include "standard_output.h"
@@ -36,9 +37,6 @@ namespace {
 
 // How long ranks may take to come up after rank 0 did.
 constexpr double hello_seconds = 60;
-// A launch counts as hung after this and so many times what it should take.
-constexpr double timeout_base_seconds = 600, timeout_factor = 50;
-
 // Seconds of tracing from which it pays to look at the parts of the picture first.
 constexpr double least_render_to_look_at = 20;
 
@@ -50,11 +48,6 @@ class RunClock {
 
   private:
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
-
-struct MetRanks {
-    std::vector<RankRecord> ranks;
-    std::vector<int> pools;  // PlanRequest::pools
 };
 
 MetRanks meet_ranks(const JobSetup& setup, Transport& transport, const std::string& povray) {
@@ -86,76 +79,12 @@ MetRanks meet_ranks(const JobSetup& setup, Transport& transport, const std::stri
     return met;
 }
 
-PlanRequest plan_request(const Options& options, const MetRanks& met, int early_threads) {
-    PlanRequest request;
-    request.early_threads = early_threads;
-    request.pools = met.pools;
-    request.shape = options.shape;
-    request.seams = options.seams;
-    request.halo = options.halo;
-    request.sections = options.sections;
-    request.radiosity = options.radiosity;
-    request.radiosity_passes = options.radiosity_passes;
-    request.radiosity_scale = options.radiosity_scale;
-    request.schedule = options.schedule;
-    request.threads = options.threads;
-    request.in_flight = options.in_flight;
-    request.dedicated_coordinator = options.dedicated_coordinator;
-    for (const RankRecord& rank : met.ranks) request.slots.push_back(rank.slots);
-    return request;
-}
-
 Plan checked_plan(const PlanRequest& request, const ProbeResult& probe) {
     try {
         return make_plan(request, probe);
     } catch (const std::invalid_argument& error) {
         throw Failure(Exit::usage, error.what());
     }
-}
-
-JobCommand job_command(const Options& options, const std::vector<std::string>& arguments,
-                       const Probe& probe, const Plan& plan) {
-    JobCommand job;
-    job.povray = options.povray;
-    job.user_arguments = arguments;
-    job.format_arguments = section_format(probe.result.image.type);
-    job.threads = plan.record.threads;
-    if (plan.record.seams == Seams::halo) {
-        // The reference of a halo render is the serial render in one block.
-        job.block = std::max(probe.result.image.width, probe.result.image.height);
-        job.threads = 1;
-    }
-    return job;
-}
-
-double automatic_timeout(double cpu_seconds) {
-    return timeout_base_seconds + timeout_factor * cpu_seconds;
-}
-
-CoordinatorSetup coordinator_setup(const Options& options,
-                                   const std::vector<std::string>& arguments, const Probe& probe,
-                                   const Plan& plan, const std::vector<RankRecord>& ranks) {
-    CoordinatorSetup setup;
-    setup.partition = plan.partition;
-    setup.policy = options.schedule;
-    setup.costs = plan.costs;
-    setup.job = job_command(options, arguments, probe, plan);
-    setup.image = {plan.record.image.width, plan.record.image.height};
-    setup.ranks = ranks;
-    for (std::size_t rank = 0; rank < ranks.size(); ++rank)
-        setup.ranks[rank].slots = plan.slots[rank];
-    setup.in_flight = plan.in_flight;
-    setup.retries = options.retries;
-    setup.timeout_seconds = options.timeout_seconds.value_or(
-        automatic_timeout(plan.record.predicted.cpu_seconds / plan.record.sections));
-    return setup;
-}
-
-GatherSetup gather_setup(const Options& options, const CoordinatorSetup& job, const Plan& plan) {
-    GatherSetup setup{job, plan.waves, {}};
-    setup.timeout_seconds =
-        options.timeout_seconds.value_or(automatic_timeout(plan.record.predicted.cpu_seconds));
-    return setup;
 }
 
 Canvas make_canvas(const PlanRecord& plan) {
@@ -273,7 +202,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
         for (const std::string& note : plan.notes) progress.say("mpipov: " + note);
         CoordinatorSetup job = coordinator_setup(options, arguments, probe, plan, met.ranks);
         if (!plan.waves.empty())
-            job.cache = gather_radiosity(gather_setup(options, job, plan),
+            job.cache = gather_radiosity(gather_setup(options, job, plan, probe),
                                          {transport, worker, journal ? &*journal : nullptr, now,
                                           [&](int wave, double fraction) {
                                               progress.update_gathering(
