@@ -1,7 +1,7 @@
 """A tradeoff.json as the page shows it: its numbers, its front, what was left out."""
 
 from report_text import (
-    NONE, at, command, count, fixed, listing, mapping, number, rounded, text, texts, whole)
+    NONE, at, command, count, fixed, listing, mapping, number, rounded, text, texts)
 
 
 def median_of(row, key):
@@ -61,11 +61,8 @@ def truth_text(data):
     truth = mapping(at(data, "truth"))
     if not truth:
         return None
-    factor = count(at(truth, "factor"))
     share = number(at(truth, "share_of_best"))
-    parts = [f"Truth: {factor} × {factor} samples a pixel"]
-    if (whole(at(truth, "renders")) or 1) > 1:
-        parts[0] += ", twice, in two orders of rendering"
+    parts = [f"Truth: {count(at(truth, 'samples_per_pixel'))} samples a pixel"]
     parts.append("averaged in linear light" if at(data, "averaging") == "linear" else
                  "averaged in encoded values")
     own = f"its own error is {rounded(at(truth, 'error'))} levels of 255"

@@ -1,14 +1,13 @@
 #include "supersample.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
 namespace mpipov {
 namespace {
 
-constexpr std::size_t grids = 4, channels = 3;
+constexpr std::size_t channels = 3;
 constexpr double knee = 0.0031308;
 
 // Beyond 1 too: averaging comes before clipping.
@@ -37,67 +36,53 @@ double half_rounding(double linear) {
     return std::ldexp(1.0, exponent - digits) / std::sqrt(12.0) * slope(linear);
 }
 
-Supersampler::Supersampler(int width, int height, int factor, Averaging averaging)
-    : width_(width),
-      height_(height),
-      factor_(factor),
-      averaging_(averaging),
-      sums_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * channels * grids) {
+std::vector<double> Supersampled::encoded() const {
+    std::vector<double> values = means;
+    for (double& value : values)
+        value = averaging == Averaging::linear ? srgb_encoded(value) : std::clamp(value, 0.0, 1.0);
+    return values;
 }
 
+Supersampler::Supersampler(int width, int height, int factor, Averaging averaging)
+    : picture_{width, height, factor, averaging,
+               std::vector<double>(static_cast<std::size_t>(width) *
+                                   static_cast<std::size_t>(height) * channels)} {}
+
 void Supersampler::add_row(int y, std::span<const double> samples) {
-    const auto row = static_cast<std::size_t>(y / factor_) * static_cast<std::size_t>(width_);
-    const std::size_t odd_row = y % 2 == 1 ? 2 : 0;
-    const auto factor = static_cast<std::size_t>(factor_);
+    const auto factor = static_cast<std::size_t>(picture_.factor);
+    const std::size_t row =
+        static_cast<std::size_t>(y) / factor * static_cast<std::size_t>(picture_.width);
+    const double weight = 1.0 / (picture_.factor * picture_.factor);
     for (std::size_t x = 0; x < samples.size() / channels; ++x) {
-        double* sums = &sums_[(row + x / factor) * channels * grids + odd_row + x % 2];
+        double* means = &picture_.means[(row + x / factor) * channels];
         for (std::size_t c = 0; c < channels; ++c) {
             const double sample = samples[x * channels + c];
             if (!std::isfinite(sample)) continue;
-            sums[c * grids] += averaging_ == Averaging::linear ? sample : curve(sample);
+            means[c] += weight * (picture_.averaging == Averaging::linear ? sample : curve(sample));
         }
     }
 }
 
 Supersampled Supersampler::result() const {
-    Supersampled found{width_, height_, {}, 0, 0};
-    const double of_grid = factor_ * factor_ / static_cast<double>(grids);
-    const auto encode = [&](double mean) {
-        return averaging_ == Averaging::linear ? srgb_encoded(mean) : std::clamp(mean, 0.0, 1.0);
-    };
-    double sampling = 0, rounding = 0;
-    for (std::size_t at = 0; at < sums_.size(); at += grids) {
-        double mean = 0, of_encoded = 0;
-        std::array<double, grids> encoded{};
-        for (std::size_t i = 0; i < grids; ++i) {
-            mean += sums_[at + i] / of_grid / grids;
-            encoded[i] = encode(sums_[at + i] / of_grid);
-            of_encoded += encoded[i] / grids;
-        }
-        for (const double value : encoded)
-            sampling += (value - of_encoded) * (value - of_encoded) / (grids * (grids - 1));
-        const double rounded =
-            half_rounding(averaging_ == Averaging::linear ? mean : inverse(mean));
-        rounding += rounded * rounded;
-        found.pixels.push_back(encode(mean));
-    }
-    const auto count = static_cast<double>(std::max<std::size_t>(found.pixels.size(), 1));
-    found.sampling_error = std::sqrt(sampling / count);
-    found.rounding_error = std::sqrt(rounding / count);
-    return found;
+    return picture_;
 }
 
 Combined combine(const Supersampled& a, const Supersampled& b) {
-    Combined both{a, 0};
-    double square = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-        both.picture.pixels[i] = (a.pixels[i] + b.pixels[i]) / 2;
-        square += (a.pixels[i] - b.pixels[i]) * (a.pixels[i] - b.pixels[i]) / 4;
+    Combined both{a, 0, 0};
+    const double of_a = a.factor * a.factor, of_b = b.factor * b.factor, all = of_a + of_b;
+    const std::vector<double> encoded_a = a.encoded(), encoded_b = b.encoded();
+    double square = 0, rounding = 0;
+    for (std::size_t i = 0; i < a.means.size(); ++i) {
+        const double mean = (of_a * a.means[i] + of_b * b.means[i]) / all;
+        both.picture.means[i] = mean;
+        square += (encoded_a[i] - encoded_b[i]) * (encoded_a[i] - encoded_b[i]);
+        const double rounded =
+            half_rounding(a.averaging == Averaging::linear ? mean : inverse(mean));
+        rounding += rounded * rounded;
     }
-    both.order_error =
-        std::sqrt(square / static_cast<double>(std::max<std::size_t>(a.pixels.size(), 1)));
-    both.picture.sampling_error = std::hypot(a.sampling_error, b.sampling_error) / 2;
-    both.picture.rounding_error = std::max(a.rounding_error, b.rounding_error);
+    const auto count = static_cast<double>(std::max<std::size_t>(a.means.size(), 1));
+    both.sampling_error = std::sqrt(of_a * of_b) / all * std::sqrt(square / count);
+    both.rounding_error = std::sqrt(rounding / count);
     return both;
 }
 

@@ -23,7 +23,7 @@ struct TradeoffOptions {
     std::string out = "tradeoff", sweep = "auto", methods = "1,2", depths = "1,2,3,4,5",
                 thresholds = "0.3,0.1,0.03,0.01", sections = "2,4,8,16,32,64", halos = "1,2,4,8",
                 threads = "1,2", average = "linear", povray = "povray", mpiexec = "mpiexec";
-    int ranks = 2, repeat = 3, truth_samples = 1024;
+    int ranks = 2, repeat = 3, truth_samples = 13448;
     double truth_seconds = 600;
     std::optional<double> max_error, max_seconds;
 };
@@ -75,7 +75,7 @@ Exit run(const CLI::App& app, const TradeoffOptions& options) {
     request.choice = choice_of(options);
     request.repeat = options.repeat;
     request.averaging = options.average == "linear" ? Averaging::linear : Averaging::encoded;
-    request.truth_samples = options.truth_samples;
+    request.most_samples = options.truth_samples;
     request.truth_seconds = options.truth_seconds;
     request.max_error = options.max_error;
     request.max_seconds = options.max_seconds;
@@ -141,9 +141,9 @@ Command add_tradeoff_command(CLI::App& program) {
         ->type_name("S")
         ->check(CLI::NonNegativeNumber);
     app->add_option("--truth-samples", options->truth_samples,
-                    "samples a pixel of the truth, at most; from 64 on there are as many as make "
+                    "samples a pixel of the truth, at most; from 164 on there are as many as make "
                     "its own error a tenth of the best setting's")
-        ->check(CLI::Range(fewest_truth_factor * fewest_truth_factor, 1000000))
+        ->check(CLI::Range(truth_samples(1), truth_samples(deepest_truth)))
         ->capture_default_str();
     app->add_option("--truth-seconds", options->truth_seconds,
                     "no truth that must be expected to take longer is tried")

@@ -3,7 +3,7 @@
 import numpy as np
 
 from report_images import crop_box, cut, load, to_bytes
-from report_text import at, listing, number, text, texts
+from report_text import at, count, listing, number, text, texts
 
 MOST = 5  # pictures beside the truth: the first, the last, and some between
 
@@ -51,6 +51,6 @@ def crops_of(folder, data):
         if error is not None and seconds is not None:
             label.append(f"error {error:.3g}, {seconds:.2f} CPU s")
         labelled.append((label, cut(pixels, box)))
-    factor = at(data, "truth", "factor")
-    labelled.append((["truth", f"{factor} × {factor} samples a pixel"], cut(truth, box)))
+    samples = count(at(data, "truth", "samples_per_pixel"))
+    labelled.append((["truth", f"{samples} samples a pixel"], cut(truth, box)))
     return labelled, box

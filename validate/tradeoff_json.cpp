@@ -54,16 +54,14 @@ json truth_json(const TradeoffReport& report) {
     json share = nullptr;
     if (best && report.rows[*best].truth->rms > 0)
         share = in_levels(truth.error()) / report.rows[*best].truth->rms;
-    return {{"factor", truth.factor},
-            {"samples_per_pixel", truth.factor * truth.factor * truth.renders},
-            {"renders", truth.renders},
+    return {{"samples_per_pixel", truth.samples()},
+            {"depth", truth.depth},
             {"argv", truth.argv},
             {"wall_seconds", truth.wall_seconds},
             {"cpu_seconds", truth.cpu_seconds},
             {"error", in_levels(truth.error())},
             {"sampling_error", in_levels(truth.sampling_error)},
             {"rounding_error", in_levels(truth.rounding_error)},
-            {"order_error", truth.renders > 1 ? json(in_levels(truth.order_error)) : json()},
             {"share_of_best", share},
             {"wanted_share", report.truth_share},
             {"stopped", text_json(report.truth_stopped)},

@@ -70,5 +70,7 @@ def draw(pyplot, panels, ink):
         panel(axes, found, ink)
     all_axes[0][0].set_ylabel("error, levels of 255 (RMS)")
     handles, labels = all_axes[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, fontsize=8.5, loc="outside lower center", ncol=len(labels))
+    middle = all_axes[0][len(panels) // 2]
+    middle.legend(handles, labels, fontsize=8.5, ncol=len(labels), loc="upper center",
+                  bbox_to_anchor=(0.0 if len(panels) % 2 == 0 else 0.5, -0.16))
     return figure

@@ -37,17 +37,13 @@ void take_truth(TradeoffReport& report, const json& earlier) {
     truth.image = existing(report, earlier.at("image"));
     truth.other = existing(report, earlier.at("other"));
     if (truth.image.empty() || truth.other.empty()) return;
-    const auto full_scale = [&](const char* key) {
-        return earlier.at(key).is_null() ? 0 : earlier.at(key).get<double>() / 255;
-    };
-    truth.factor = earlier.at("factor").get<int>();
-    truth.renders = earlier.at("renders").get<int>();
+    const auto full_scale = [&](const char* key) { return earlier.at(key).get<double>() / 255; };
+    truth.depth = earlier.at("depth").get<int>();
     truth.argv = earlier.at("argv").get<std::vector<std::vector<std::string>>>();
     truth.wall_seconds = earlier.at("wall_seconds").get<double>();
     truth.cpu_seconds = earlier.at("cpu_seconds").get<double>();
     truth.sampling_error = full_scale("sampling_error");
     truth.rounding_error = full_scale("rounding_error");
-    truth.order_error = full_scale("order_error");
     report.truth = truth;
 }
 

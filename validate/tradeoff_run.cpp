@@ -20,6 +20,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <thread>
 
 namespace mpipov {
@@ -209,8 +210,7 @@ class Sweeper {
     // More samples until its own error is small beside the best setting's, or it would take too
     // much.
     void make_truth() {
-        const int most = static_cast<int>(std::sqrt(request_.truth_samples));
-        if (!report_.truth) render_truth_with(fewest_truth_factor);
+        if (!report_.truth) render_truth_of(1);
         for (;;) {
             add_errors(report_);
             save();
@@ -220,32 +220,28 @@ class Sweeper {
             const double wanted = report_.truth_share * report_.rows[*best].truth->rms / 255;
             report_.truth_stopped.clear();
             if (truth.error() <= wanted) break;
-            if (truth.factor + 2 > most) {
-                report_.truth_stopped = fmt::format("more than {} samples a pixel: --truth-samples",
-                                                    request_.truth_samples);
+            const int by_samples =
+                deepest_within(request_.most_samples, std::numeric_limits<double>::max(), truth);
+            const int most = deepest_within(request_.most_samples, request_.truth_seconds, truth);
+            const int next = next_depth(truth.depth, truth.error(), wanted, most);
+            if (next == truth.depth) {
+                report_.truth_stopped =
+                    by_samples > truth.depth ? "more samples would take longer than --truth-seconds"
+                    : by_samples == deepest_truth ? "more samples cannot be had"
+                                                  : "more samples are more than --truth-samples";
                 break;
             }
-            const int affordable = static_cast<int>(
-                truth.factor * std::sqrt(request_.truth_seconds / truth.wall_seconds));
-            if (affordable < truth.factor + 2) {
-                report_.truth_stopped = fmt::format(
-                    "more samples would take more than {:g} "
-                    "seconds: --truth-seconds",
-                    request_.truth_seconds);
-                break;
-            }
-            render_truth_with(
-                next_factor(truth.factor, truth.error(), wanted, std::min(most, affordable)));
+            render_truth_of(next);
         }
         say_other_averaging();
     }
 
-    void render_truth_with(int factor) {
+    void render_truth_of(int depth) {
         throw_if_interrupted();
-        fmt::print(stderr, "rendering the truth with {} x {} samples a pixel\n", factor, factor);
+        fmt::print(stderr, "rendering the truth with {} samples a pixel\n", truth_samples(depth));
         report_.truth =
             render_truth(renderer_.serial(),
-                         {size_.width(), size_.height(), report_.region, factor, report_.averaging,
+                         {size_.width(), size_.height(), report_.region, depth, report_.averaging,
                           report_.calls.order_dependent, report_.cores},
                          scratch_.path() / "truth", make_images_folder());
         fmt::print(stderr, "its own error is {:.3g} levels of 255 ({:.1f} s)\n",

@@ -17,15 +17,13 @@ struct TradeoffRequest {
     TradeoffChoice choice;               // but for `radiosity`, which mpipov is asked for
     int repeat = 3;
     Averaging averaging = Averaging::linear;
-    int truth_samples = 1024;           // of a pixel, at most
+    int most_samples = 13448;           // of a pixel of the truth
     double truth_seconds = 600;         // that one more truth may be expected to take
     std::optional<double> max_error;    // levels of 255
     std::optional<double> max_seconds;  // wall
     std::string povray = "povray", mpiexec = "mpiexec";
     std::filesystem::path mpipov;
 };
-
-inline constexpr int fewest_truth_factor = 8;
 
 // Writes tradeoff.json into the folder after every render, whatever fails; goes on from what an
 // earlier call left there of the same scene, arguments, POV-Ray and machine. Exit::ok;

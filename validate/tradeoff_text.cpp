@@ -72,9 +72,8 @@ void table(Out out, const TradeoffReport& report) {
 void truth(Out out, const TradeoffReport& report) {
     if (!report.truth) return;
     const Truth& found = *report.truth;
-    fmt::format_to(out, "Truth: {} x {} samples a pixel{}, averaged in {}; its own error is {:.3g}",
-                   found.factor, found.factor,
-                   found.renders > 1 ? ", twice, in two orders of rendering" : "",
+    fmt::format_to(out, "Truth: {} samples a pixel, averaged in {}; its own error is {:.3g}",
+                   found.samples(),
                    report.averaging == Averaging::linear ? "linear light" : "encoded values",
                    255 * found.error());
     if (const std::optional<std::size_t> best = most_accurate(report);
