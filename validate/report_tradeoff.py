@@ -23,9 +23,19 @@ def points_of(data, key):
     return points
 
 
+LAW = ("seconds_at_1", "exponent", "halving_costs", "from_error", "to_error")
+
+
+def law_of(data, key):
+    law = {part: number(at(data, "front", key, "law", part)) for part in LAW}
+    positive = [law[part] for part in LAW if part != "exponent"]
+    return law if None not in law.values() and min(positive) > 0 else None
+
+
 def panels_of(data):
     """For tradeoff_plot.draw; empty where nothing was measured."""
     panels = [{"points": points_of(data, key), "front": texts(at(data, "front", key, "settings")),
+               "law": law_of(data, key) if key == "cpu" else None,
                "truth_error": number(at(data, "truth", "error")), "label": label}
               for key, label in (("cpu", "CPU seconds"), ("wall", "wall seconds"))]
     return [found for found in panels if found["points"]]

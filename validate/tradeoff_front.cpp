@@ -49,6 +49,7 @@ std::optional<TradeoffLaw> fit_law(std::span<const TradeoffPoint> front) {
     if (xx <= 0) return {};
     const double slope = xy / xx;
     TradeoffLaw law;
+    law.scale = std::exp(y - slope * x);
     law.exponent = -slope;
     law.factor = std::exp2(law.exponent);
     law.points = logs.size();

@@ -20,9 +20,10 @@ using TradeoffPoints = std::span<const std::optional<TradeoffPoint>>;
 // seconds. Of several with the same time and error the first.
 std::vector<std::size_t> pareto_front(TradeoffPoints points);
 
-// seconds = c * error^-exponent, by least squares of log seconds over log error. Halving the error
-// then costs 2^exponent times the time.
+// seconds = scale * error^-exponent, by least squares of log seconds over log error. Halving the
+// error then costs 2^exponent times the time.
 struct TradeoffLaw {
+    double scale = 0;  // seconds at an error of 1
     double exponent = 0;
     double factor = 1;        // 2^exponent
     double residual = 1;      // exp of the RMS residual: typically off by this factor

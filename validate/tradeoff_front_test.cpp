@@ -39,6 +39,7 @@ TEST(Law, FindsThePowerThatThePointsFollow) {
     ASSERT_TRUE(law);
     EXPECT_NEAR(law->exponent, 1.5, 1e-12);
     EXPECT_NEAR(law->factor, std::exp2(1.5), 1e-12);
+    EXPECT_NEAR(law->scale, 3, 1e-12);
     EXPECT_NEAR(law->residual, 1, 1e-9);
     EXPECT_NEAR(law->from, 8, 1e-12);
     EXPECT_NEAR(law->to, 0.5, 1e-12);

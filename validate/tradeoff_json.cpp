@@ -77,11 +77,9 @@ json front_json(const TradeoffReport& report, bool wall) {
     const std::optional<TradeoffLaw> law = law_of(report, wall);
     json found = {{"settings", names}, {"law", nullptr}};
     if (law)
-        found["law"] = {{"halving_costs", law->factor},
-                        {"exponent", law->exponent},
-                        {"residual_factor", law->residual},
-                        {"from_error", law->from},
-                        {"to_error", law->to},
+        found["law"] = {{"halving_costs", law->factor}, {"exponent", law->exponent},
+                        {"seconds_at_1", law->scale},   {"residual_factor", law->residual},
+                        {"from_error", law->from},      {"to_error", law->to},
                         {"points", law->points}};
     return found;
 }

@@ -25,7 +25,7 @@ def log_axis(axis, values):
 
 def panel(axes, found, ink):
     """found: {"points": [{"name", "sweep", "seconds", "low", "high", "error"}], "front": [name],
-    "law": {"exponent", ...} | None, "truth_error": levels | None, "label": of the seconds}."""
+    "law": as in tradeoff.json | None, "truth_error": levels | None, "label": of the seconds}."""
     points = found["points"]
     by_name = {point["name"]: point for point in points}
     front = [by_name[name] for name in found["front"] if name in by_name]
@@ -47,6 +47,11 @@ def panel(axes, found, ink):
                   markerfacecolor="none", markeredgecolor=ink, markeredgewidth=0.9, zorder=3,
                   linestyle="none")
     errors = [p["error"] for p in points]
+    if law := found["law"]:
+        ends = (law["from_error"], law["to_error"])
+        axes.plot([law["seconds_at_1"] * error ** -law["exponent"] for error in ends], ends, "--",
+                  color=ink, alpha=0.6, linewidth=1, zorder=1,
+                  label=f"halving costs {law['halving_costs']:.2f} times")
     if found["truth_error"]:
         errors_shown = [*errors, found["truth_error"]]
         axes.axhline(found["truth_error"], color=ink, alpha=0.5, linewidth=0.9, linestyle=":",
@@ -64,13 +69,13 @@ def panel(axes, found, ink):
 
 def draw(pyplot, panels, ink):
     """A figure of one or more panels side by side, for the same settings against other seconds."""
-    figure, all_axes = pyplot.subplots(1, len(panels), figsize=(4.3 * len(panels), 3.9),
-                                       layout="constrained", sharey=True, squeeze=False)
+    figure, all_axes = pyplot.subplots(1, len(panels), figsize=(4.3 * len(panels), 4.0),
+                                       sharey=True, squeeze=False)
+    figure.subplots_adjust(left=0.32 / len(panels), right=0.985, top=0.97, bottom=0.235,
+                           wspace=0.07)
     for axes, found in zip(all_axes[0], panels):
         panel(axes, found, ink)
     all_axes[0][0].set_ylabel("error, levels of 255 (RMS)")
     handles, labels = all_axes[0][0].get_legend_handles_labels()
-    middle = all_axes[0][len(panels) // 2]
-    middle.legend(handles, labels, fontsize=8.5, ncol=len(labels), loc="upper center",
-                  bbox_to_anchor=(0.0 if len(panels) % 2 == 0 else 0.5, -0.16))
+    figure.legend(handles, labels, fontsize=8.5, loc="lower center", ncol=4)
     return figure
