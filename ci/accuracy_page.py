@@ -1,0 +1,125 @@
+"""docs/accuracy.md out of the records of accuracy.py: what is said there, its tables and pictures."""
+
+import shlex
+
+from markdown_table import table
+
+SWEEPS = ("antialiasing", "decomposition", "radiosity", "threads")
+
+
+def seconds(row, key, digits=2):
+    spread = row[f"{key}_seconds"]
+    if spread["low"] == spread["high"]:
+        return f"{spread['median']:.{digits}f}"
+    return f"{spread['median']:.{digits}f} ({spread['low']:.{digits}f}..{spread['high']:.{digits}f})"
+
+
+def error(found):
+    if found is None:
+        return ""
+    return "identical" if found["identical"] else f"{found['rms']:.3g}"
+
+
+def ssim(found):
+    if found is None or found["identical"] or found["ssim"] is None:
+        return ""
+    return f"{found['ssim']:.5f}"
+
+
+def setting_row(row, front):
+    mark = " ★" if row["name"] in front else ""
+    return (row["what"] + mark, seconds(row, "cpu"), seconds(row, "wall"),
+            error(row["against_truth"]), ssim(row["against_truth"]), error(row["against_serial"]))
+
+
+def truth_line(data):
+    truth = data["truth"]
+    stopped = f"; {truth['stopped']}" if truth["stopped"] else ""
+    share = "" if truth["share_of_best"] is None else \
+        f", {100 * truth['share_of_best']:.0f} % of the best setting's"
+    return (f"Truth: {truth['samples_per_pixel']} samples a pixel ({truth['cpu_seconds']:.0f} CPU "
+            f"seconds); its own error is {truth['error']:.3g}{share}{stopped}.")
+
+
+def scene_section(name, title, data):
+    front = data["front"]["cpu"]["settings"]
+    image = data["image"]
+    lines = [f"## {title}", "",
+             f"`{shlex.join(data['arguments'])}`, {image['width']} x {image['height']} pixels.", "",
+             f"**{data['sentence']}**" if data["sentence"] else "No law: too few settings differ.",
+             "", truth_line(data), ""]
+    lines += [f"{note[0].upper()}{note[1:]}.\n" for note in data["notes"]]
+    lines += [f"![error against time](accuracy/{name}/tradeoff.png)", "",
+              f"![the front's pictures](accuracy/{name}/crops.png)", "",
+              "<details><summary>All settings</summary>", ""]
+    rows = [setting_row(row, front) for row in data["rows"] if row["wall"]]
+    lines += [table(("setting", "CPU s", "wall s", "error", "SSIM", "against serial"), rows), ""]
+    if data["left_out"]:
+        lines += ["Left out: " + "; ".join(f"{one['what']}: {one['why']}"
+                                           for one in data["left_out"]) + ".", ""]
+    lines += ["</details>", ""]
+    return "\n".join(lines)
+
+
+def best_of(data):
+    rows = [row for row in data["rows"] if row["against_truth"]]
+    return min(rows, key=lambda row: row["against_truth"]["rms"])
+
+
+def by_name(data, name):
+    return next((row for row in data["rows"] if row["name"] == name), None)
+
+
+def against_serial(data, prefix, halo=False):
+    """The smallest and the largest error against serial of the settings of that name."""
+    found = [row["against_serial"]["rms"] for row in data["rows"]
+             if row["name"].startswith(prefix) and row["against_serial"]]
+    if not found:
+        return ""
+    return "identical" if max(found) == 0 else f"{min(found):.3g}..{max(found):.3g}"
+
+
+def overview(found):
+    rows = []
+    for title, data in found.values():
+        law, best = data["front"]["cpu"]["law"], best_of(data)
+        off = by_name(data, "aa-off")
+        rows.append((title, f"{law['halving_costs']:.2f}" if law else "",
+                     error(off["against_truth"]) if off else "", error(best["against_truth"]),
+                     best["what"], f"{100 * data['truth']['share_of_best']:.0f} %",
+                     against_serial(data, "aligned"), against_serial(data, "plain"),
+                     against_serial(data, "halo")))
+    return table(("scene", "halving the error costs, CPU time", "error without antialiasing",
+                  "least error", "by", "the truth's own error of that",
+                  "aligned against serial", "plain", "halo"), rows)
+
+
+def page(found):
+    host = next(iter(found.values()))[1]["host"]
+    parts = [
+        "# Accuracy against time", "",
+        "Made by `ci/accuracy.py measure` and `ci/accuracy.py page`: `mpipov-validate tradeoff` of eight "
+        f"scenes, on a shared virtual machine of {host['cores']} cores ({host['cpu']}) that had other "
+        "things to do. Errors do not depend on that, CPU seconds little, wall seconds much.", "",
+        HOW, "", "## All scenes", "", overview(found), "", WHAT, ""]
+    parts += [scene_section(name, title, data) for name, (title, data) in found.items()]
+    return "\n".join(parts)
+
+
+HOW = """## How to read it
+
+- **Error**: root mean square over all pixels and colour channels, in levels of 255 of the sRGB-encoded
+  picture, taken from renders of 16 bits. **Truth** is the mean of two renders at 8 and 10 times the size
+  without antialiasing, in linear light, of which, where that is not enough, each pixel is itself
+  supersampled; their difference tells the truth's own error (`validate/supersample.h` has the formula,
+  [povray.md](povray.md) what it relies on).
+- **★ and the line in the plots**: the Pareto front by CPU seconds: no other setting is as fast and as
+  accurate. The dashed line is the law fitted to it. A scene whose parsing, photons or radiosity are most
+  of the time pays little for better antialiasing: its factor is near 1.
+- **Against serial**: the distance from one serial render with the same antialiasing; for halo from that in
+  one block (`+BS` of the longer side), which is what halo reproduces.
+- Antialiasing is swept by serial renders; depth, threshold, seams and sections are changed one at a time."""
+
+WHAT = """Aligned sections are the serial render where the scene does not depend on the order of rendering, so
+cutting costs time and no accuracy. Where it does, the distance from the serial render is that of one
+equally right picture from another: compare it with the error against the truth."""
