@@ -1,5 +1,6 @@
 #include "seams_command.h"
 
+#include "option_values.h"
 #include "render_options.h"
 #include "seams_run.h"
 #include "shipped_file.h"
@@ -18,8 +19,8 @@ namespace {
 
 struct SeamsOptions {
     std::string out, serial, ranks = "1,2", schedule = "dynamic", shape = "columns",
-                             seams = "aligned,halo:2,plain", sections = "2,8,32", povray = "povray",
-                             mpiexec = "mpiexec";
+                             seams = "aligned,halo:2,plain", sections = "2,8,32",
+                             radiosity = "auto", povray = "povray", mpiexec = "mpiexec";
     int renders = default_noise_renders;
 };
 
@@ -44,6 +45,17 @@ std::vector<SeamKind> seams_of(const std::string& text) {
     return kinds;
 }
 
+std::vector<std::string> radiosity_of(const std::string& text) {
+    const std::vector<std::string> all = split_list("--radiosity", text);
+    for (const std::string& piece : all) try {
+            Options ignored;
+            set_radiosity(ignored, piece);
+        } catch (const Failure& failure) {
+            throw Failure(Exit::usage, fmt::format("--radiosity: {}", failure.what()));
+        }
+    return all;
+}
+
 Exit run(const CLI::App& app, const SeamsOptions& options) {
     SeamsRequest request;
     request.arguments = povray_arguments(app);
@@ -52,6 +64,7 @@ Exit run(const CLI::App& app, const SeamsOptions& options) {
     request.shapes = each_once(split_names("--shape", options.shape, shapes));
     request.seams = each_once(seams_of(options.seams));
     request.sections = each_once(split_numbers("--sections", options.sections));
+    request.radiosity = each_once(radiosity_of(options.radiosity));
     request.renders = options.renders;
     request.serial = options.serial;
     request.povray = options.povray;
@@ -87,6 +100,7 @@ Command add_seams_command(CLI::App& program) {
     list("--shape", options->shape, names_of(shapes));
     list("--seams", options->seams, "aligned, halo:N, plain");
     list("--sections", options->sections, "numbers of sections; those that cannot be are left out");
+    list("--radiosity", options->radiosity, "auto, independent, shared[:PASSES], joined[:PASSES]");
     app->add_option("--renders", options->renders,
                     "how many serial renders tell noise from damage, beside the reference")
         ->check(CLI::Range(fewest_noise_renders, 1000))

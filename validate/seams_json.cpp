@@ -106,6 +106,7 @@ json self_check_json(const SeamsCase& one) {
 json case_json(const SeamsCase& one, const fs::path& folder) {
     return {{"name", one.name},
             {"schedule", one.schedule},
+            {"radiosity", one.radiosity},
             {"ranks", one.ranks},
             {"shape", to_string(one.shape)},
             {"seams", to_string(one.seams)},

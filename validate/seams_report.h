@@ -22,8 +22,9 @@ struct SeamsCase {
     int ranks = 1;
     Shape shape = Shape::columns;
     Seams seams = Seams::aligned;
-    int halo = 0, sections = 1;  // as asked for
-    std::string failure;         // empty: none
+    int halo = 0, sections = 1;      // as asked for
+    std::string radiosity = "auto";  // the same
+    std::string failure;             // empty: none
     std::filesystem::path image, run_file;
     std::string reference;  // "default" or "oneblock"
     std::optional<RunRecord> run;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 namespace mpipov {
 namespace {
@@ -96,20 +97,32 @@ class SeamsRun {
             for (const int ranks : request_.ranks)
                 for (const Shape shape : request_.shapes)
                     for (const SeamKind& kind : request_.seams)
-                        for (const int sections : request_.sections) {
-                            SeamsCase one;
-                            one.name = fmt::format("{}.np{}.{}.{}.g{}", to_string(schedule), ranks,
-                                                   to_string(shape), kind.name(), sections);
-                            one.schedule = to_string(schedule);
-                            one.ranks = ranks;
-                            one.shape = shape;
-                            one.seams = kind.seams;
-                            one.halo = kind.halo;
-                            one.sections = sections;
-                            one.reference = reference_for(kind.seams);
-                            cases.push_back(one);
-                        }
+                        for (const int sections : request_.sections)
+                            for (const std::string& radiosity : request_.radiosity) {
+                                SeamsCase one;
+                                one.schedule = to_string(schedule);
+                                one.ranks = ranks;
+                                one.shape = shape;
+                                one.seams = kind.seams;
+                                one.halo = kind.halo;
+                                one.sections = sections;
+                                one.radiosity = radiosity;
+                                one.name = name_of(one);
+                                one.reference = reference_for(kind.seams);
+                                cases.push_back(one);
+                            }
         return cases;
+    }
+
+    // Also that of a folder.
+    static std::string name_of(const SeamsCase& one) {
+        std::string name =
+            fmt::format("{}.np{}.{}.{}.g{}", one.schedule, one.ranks, to_string(one.shape),
+                        SeamKind{one.seams, one.halo}.name(), one.sections);
+        if (one.radiosity == "auto") return name;
+        name += '.';
+        std::ranges::remove_copy(one.radiosity, std::back_inserter(name), ':');
+        return name;
     }
 
     // Halo reproduces the render in one block, which is another where antialiasing sees blocks.
@@ -156,6 +169,8 @@ class SeamsRun {
                       kind.text(),
                       "--sections",
                       fmt::format("{}", one.sections),
+                      "--radiosity",
+                      one.radiosity,
                       "--record",
                       one.run_file.string(),
                       "--povray",

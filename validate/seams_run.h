@@ -28,6 +28,7 @@ struct SeamsRequest {
     std::vector<Shape> shapes{Shape::columns};
     std::vector<SeamKind> seams;
     std::vector<int> sections{2, 8, 32};
+    std::vector<std::string> radiosity{"auto"};  // as --radiosity of mpipov takes it
     int renders = default_noise_renders;
     std::filesystem::path serial;  // of `noise --out`; empty: serial renders are made
     std::string povray = "povray", mpiexec = "mpiexec";

@@ -46,6 +46,7 @@ Coordinator::Coordinator(CoordinatorSetup setup, Transport& transport, Canvas& c
       schedule_(setup_.policy, ids_of(setup_.partition), lanes_of(setup_.ranks), setup_.costs),
       overlap_(setup_.partition, canvas.layout()),
       seams_(overlap_.seams().size()),
+      fed_(setup_.ranks.size(), 0),
       under_way_(setup_.ranks.size(), 0),
       busy_since_(setup_.ranks.size(), 0),
       pace_(setup_.ranks.size()) {
@@ -95,10 +96,13 @@ void Coordinator::start() {
         {"block", setup_.job.block},
         {"width", setup_.image.width},
         {"height", setup_.image.height},
+        {"gathers", setup_.gathers},
+        {"cache_bytes", setup_.cache.size()},
         {"timeout_seconds",
          setup_.timeout_seconds ? nlohmann::json(*setup_.timeout_seconds) : nlohmann::json()}};
     for (int rank = 0; rank < static_cast<int>(setup_.ranks.size()); ++rank)
         transport_.send({MessageKind::job, rank, head, {}});
+    feed_caches();
     assign_to_all();
 }
 
@@ -116,7 +120,7 @@ void Coordinator::assign_to_all() {
 
 void Coordinator::assign_to(int worker) {
     const auto rank = static_cast<std::size_t>(worker);
-    if (under_way_[rank] >= setup_.in_flight.at(rank)) return;
+    if (fed_[rank] < setup_.cache.size() || under_way_[rank] >= setup_.in_flight.at(rank)) return;
     if (const std::optional<int> next = schedule_.next(worker)) begin(*next, worker);
 }
 
@@ -130,6 +134,7 @@ void Coordinator::begin(int id, int worker) {
         progress.next_row = section.render.y0;
         progress.disagreement.differing = 0;
         progress.disagreement.max_difference = 0;
+        progress.samples.clear();
         if (run.attempt > 1) ++totals_.retries;
     } else {
         ++totals_.copies;
@@ -160,6 +165,9 @@ void Coordinator::handle(const Message& message) {
             break;
         case MessageKind::band:
             take_band(message);
+            break;
+        case MessageKind::cache:
+            take_samples(message);
             break;
         case MessageKind::done:
             take_done(message);
@@ -205,6 +213,9 @@ void Coordinator::take_progress(const Message& message) {
 void Coordinator::take_band(const Message& message) {
     const Source source = source_of(message);
     if (source.run == nullptr) return;
+    if (setup_.gathers)
+        throw std::runtime_error(
+            fmt::format("rank {} sent pixels and was to gather samples", message.peer));
     Progress& progress = *source.progress;
     keep_only(progress, *source.run);
     const Section& section = progress.record.section;
@@ -238,7 +249,7 @@ void Coordinator::take_done(const Message& message) {
     if (source.run == nullptr) return take_end_of_loser(message);
     Progress& progress = *source.progress;
     SectionRecord& record = progress.record;
-    if (progress.next_row != record.section.render.y1)
+    if (!setup_.gathers && progress.next_row != record.section.render.y1)
         throw std::runtime_error(fmt::format("rank {} ended section {} without all of its rows",
                                              message.peer, record.section.id));
     record.rank = message.peer;

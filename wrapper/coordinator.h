@@ -33,6 +33,8 @@ struct CoordinatorSetup {
     std::vector<double> costs;        // expected, of each section, in any unit; empty: by area
     double copies_every_seconds = 1;  // how often idle ranks look for a section to copy
     int widest_halo = 32;             // a seam whose overlap still disagrees then is left as it is
+    std::string cache = {};           // of radiosity, which every launch reads; empty: none
+    bool gathers = false;             // what comes back are radiosity samples, and no pixels
 };
 
 class Coordinator {
@@ -54,6 +56,8 @@ class Coordinator {
     // Once finished: puts the seams that were rendered again into the canvas, in an order that does
     // not depend on which rank was first.
     void place_repairs();
+    // Once finished, where it gathers: what each section took, by id.
+    std::vector<std::string> samples() const;
 
     // Of the region's pixels, those rendered so far; sections under way count by their progress.
     // From 0 to 1, and never less than before: a section that failed or a seam that is rendered
@@ -80,6 +84,7 @@ class Coordinator {
         int next_row = 0;                 // where the next band of this attempt begins
         SeamRecord disagreement;          // of a seam rendered again with its surroundings
         std::vector<std::byte> repaired;  // its pixels
+        std::string samples;              // of this attempt, where it gathers
     };
 
     // Where the message comes from; `run` is null where that launch was told to end.
@@ -88,6 +93,7 @@ class Coordinator {
         Run* run = nullptr;
     };
 
+    void feed_caches();
     void assign_to(int worker);
     void assign_to_all();
     void begin(int section, int worker);
@@ -101,6 +107,7 @@ class Coordinator {
     void take_end_of_loser(const Message& message);
     void take_progress(const Message& message);
     void take_band(const Message& message);
+    void take_samples(const Message& message);
     void take_repair_band(Progress& progress, const Rect& rect, std::span<const std::byte> pixels);
     void take_done(const Message& message);
     void take_failed(const Message& message);
@@ -119,6 +126,7 @@ class Coordinator {
     OverlapCheck overlap_;
     std::vector<Progress> sections_;  // by id
     std::vector<SeamRecord> seams_;
+    std::vector<std::size_t> fed_;         // bytes of the cache that were sent, by rank
     std::vector<int> under_way_;           // launches, by rank
     std::vector<double> busy_since_;       // by rank
     std::set<std::array<int, 3>> losers_;  // section, attempt, rank: launches told to end

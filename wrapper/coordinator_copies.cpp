@@ -84,12 +84,14 @@ Outlook Coordinator::outlook(int section, int worker) const {
 }
 
 void Coordinator::tick() {
+    feed_caches();
     const double now = clock_();
     if (now - looked_for_copies_ < setup_.copies_every_seconds) return;
     looked_for_copies_ = now;
     for (int worker = 0; worker < static_cast<int>(setup_.ranks.size()); ++worker) {
         // A core that still has another launch to compute has nothing to give.
-        if (under_way_[static_cast<std::size_t>(worker)] > 0) continue;
+        const auto rank = static_cast<std::size_t>(worker);
+        if (under_way_[rank] > 0 || fed_[rank] < setup_.cache.size()) continue;
         const auto copy =
             schedule_.next_copy(worker, [&](int section) { return outlook(section, worker); });
         if (copy) begin(*copy, worker);

@@ -28,6 +28,8 @@ struct RigSetup {
     double clock_step = 0.001;  // seconds, each time that somebody looks
     FakeWorkerSetup worker = {};
     unsigned seed = 1;
+    std::string cache = {};
+    bool gathers = false;
     Journal* journal = nullptr;
     int frame_width = 0, frame_height = 0;  // 0: the region ends where the frame does
 };
@@ -65,7 +67,8 @@ class Rig {
         if (!message) return;
         const bool is_for_worker =
             message->kind == MessageKind::job || message->kind == MessageKind::assign ||
-            message->kind == MessageKind::cancel || message->kind == MessageKind::stop;
+            message->kind == MessageKind::cancel || message->kind == MessageKind::stop ||
+            (message->kind == MessageKind::cache && !message->head.contains("section"));
         if (is_for_worker) return worker.handle(*message);
         const double before = coordinator_.fraction();
         coordinator_.handle(*message);
@@ -93,6 +96,8 @@ class Rig {
             c.ranks.push_back({rank, fmt::format("host{}", rank), 1, 0, 0});
         if (setup.dedicated_coordinator) c.ranks[0].slots = 0;
         c.in_flight.assign(static_cast<std::size_t>(setup.workers), setup.in_flight);
+        c.cache = setup.cache;
+        c.gathers = setup.gathers;
         c.retries = setup.retries;
         c.widest_halo = setup.widest_halo;
         c.copies_every_seconds = setup.copies ? 0 : 1e9;

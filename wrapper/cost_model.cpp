@@ -65,6 +65,29 @@ double CostModel::wall_seconds(int sections, int lanes, int threads) const {
     return (early ? 0 : startup_wall) + work + imbalance;
 }
 
+CostModel with_cache(CostModel cost) {
+    cost.per_launch -= cost.pretrace;
+    cost.pretrace = 0;
+    return cost;
+}
+
+Predicted gathering_cost(const CostModel& cost, const RadiositySharing& sharing,
+                         const std::vector<int>& waves, int lanes, int threads) {
+    Predicted sum;
+    if (waves.empty()) return sum;
+    CostModel pass = cost;
+    pass.early_threads = 0;
+    pass.render /= static_cast<double>(sharing.scale) * sharing.scale;
+    const double of_a_pass = static_cast<double>(waves.size()) / sharing.passes;
+    for (const int sections : waves) {
+        CostModel wave = pass;
+        wave.render /= of_a_pass;
+        sum.wall_seconds += wave.wall_seconds(sections, std::min(lanes, sections), threads);
+        sum.cpu_seconds += wave.cpu_seconds(sections);
+    }
+    return sum;
+}
+
 CostModel make_cost_model(const ProbeResult& given) {
     const ProbeResult probe = with_sane_times(given);
     CostModel cost;
@@ -75,7 +98,8 @@ CostModel make_cost_model(const ProbeResult& given) {
                       frame_pixel_cpu_seconds * frame;
     // The pretrace looks at the section only, but it must light that section's surroundings too:
     // nearly all of it is paid again.
-    if (report.radiosity) cost.per_launch += report.radiosity_cpu;
+    if (report.radiosity) cost.pretrace = report.radiosity_cpu;
+    cost.per_launch += cost.pretrace;
     return cost;
 }
 

@@ -5,6 +5,7 @@
 #include "probe_result.h"
 
 #include <string>
+#include <vector>
 
 namespace mpipov {
 
@@ -12,6 +13,7 @@ namespace mpipov {
 struct CostModel {
     double render = 0;      // tracing the whole region
     double per_launch = 0;  // paid again by every launch: parse, photons, full-frame output
+    double pretrace = 0;    // of that, for radiosity samples where a launch has none to read
     double startup_wall = startup_wall_seconds;
     int early_threads = 0;  // a launch of all with so many threads has its start-up behind it
 
@@ -19,6 +21,11 @@ struct CostModel {
     // Wall time of `sections` equal shares on `lanes` launches at once of `threads` threads each.
     double wall_seconds(int sections, int lanes, int threads) const;
 };
+// What is left to launches that read a radiosity cache.
+CostModel with_cache(CostModel cost);
+// Of the waves that make the cache, of so many sections each.
+Predicted gathering_cost(const CostModel& cost, const RadiositySharing& sharing,
+                         const std::vector<int>& waves, int lanes, int threads);
 CostModel make_cost_model(const ProbeResult& probe);
 
 // One of POV-Ray's statistics, 0 where it did not print it.

@@ -17,13 +17,16 @@ constexpr int shortest_sleep_ms = 1, longest_sleep_ms = 25;
 // Nothing but a child's end, which ends the sleep, can happen to a rank that is alone.
 constexpr int longest_sleep_alone_ms = 100;
 
-bool is_for_worker(MessageKind kind) {
+// Of a cache that is sent to be read, not of samples that a section has taken.
+bool is_for_worker(const Message& message) {
+    const MessageKind kind = message.kind;
     return kind == MessageKind::job || kind == MessageKind::assign || kind == MessageKind::cancel ||
-           kind == MessageKind::stop;
+           kind == MessageKind::stop ||
+           (kind == MessageKind::cache && !message.head.contains("section"));
 }
 
 void dispatch(const EventLoop& loop, const Message& message) {
-    if (is_for_worker(message.kind)) {
+    if (is_for_worker(message)) {
         loop.worker.handle(message);
     } else if (message.kind == MessageKind::refused) {
         throw Failure(static_cast<Exit>(message.head.at("code").get<int>()),

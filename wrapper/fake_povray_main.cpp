@@ -1,6 +1,8 @@
 // fake_povray: a stand-in for POV-Ray in tests of the protocol, and only there. It takes the
 // arguments that mpipov gives to POV-Ray, renders nothing, and writes a full-frame PPM file with
-// the known picture (known_picture.h) in its section and zeros outside.
+// the known picture (known_picture.h) in its section and zeros outside. With +RFO it writes no
+// image but two radiosity samples behind what the cache holds: one that every section takes, and
+// one of its section that says how many there were.
 //
 // FAKE_POVRAY names a fault, or several ("slow no-file"):
 //   error      ends with 1 after an error message in POV-Ray's words
@@ -45,6 +47,8 @@ struct Job {
     std::string first_column;
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // half-open
     std::string base;
+    std::string cache;  // +RF
+    bool gathers = false, reads = false;
 };
 
 Job parse(int argc, char** argv) {
@@ -69,6 +73,12 @@ Job parse(int argc, char** argv) {
             job.width = std::stoi(argument.substr(2));
         } else if (argument.starts_with("+H")) {
             job.height = std::stoi(argument.substr(2));
+        } else if (argument == "+RFO") {
+            job.gathers = true;
+        } else if (argument == "+RFI") {
+            job.reads = true;
+        } else if (argument.starts_with("+RF\"")) {
+            job.cache = argument.substr(4, argument.size() - 5);
         } else if (argument.starts_with("+O\"")) {
             job.base = argument.substr(3, argument.size() - 4);
         }
@@ -85,6 +95,18 @@ std::string frame(const Job& job, int rows) {
                 text += static_cast<char>(inside ? value : 0);
         }
     return text;
+}
+
+void gather(const Job& job) {
+    int known = 0;
+    if (job.reads) {
+        std::ifstream in(job.cache);
+        for (std::string line; std::getline(in, line);) ++known;
+    }
+    std::ofstream out(job.cache, std::ios::app);
+    out << "C1\t0\t0\t0\t0\t0\t0\t0\t0\t0\t0\n"
+        << "C2\t" << job.x0 << '\t' << job.y0 << '\t' << job.x1 << '\t' << job.y1 << '\t' << known
+        << "\t0\t0\t0\t0\t0\n";
 }
 
 bool fault_is_due(const Job& job) {
@@ -128,6 +150,11 @@ int run(const Job& job) {
         std::cerr << "File 'scene.pov' line 7: Parse Error: Undeclared identifier 'Sphere'\n"
                      "Fatal error in parser: Cannot parse input.\nRender failed\n";
         return 1;
+    }
+    if (job.gathers) {
+        if (!has("no-file")) gather(job);
+        std::cerr << statistics << "POV-Ray finished\n";
+        return 0;
     }
     std::ofstream(job.base + ".pov-state") << "state";
     if (has("no-file")) return 0;

@@ -43,6 +43,11 @@ class FakeWorker {
     void handle(const Message& message) {
         if (message.kind == MessageKind::job) {
             has_job_ = true;
+            gathers_ = message.head.at("gathers");
+            expected_ = message.head.at("cache_bytes");
+            cache_.clear();
+        } else if (message.kind == MessageKind::cache) {
+            cache_.append(reinterpret_cast<const char*>(message.body.data()), message.body.size());
         } else if (message.kind == MessageKind::stop) {
             stopped_ = true;
         } else if (message.kind == MessageKind::cancel) {
@@ -55,6 +60,8 @@ class FakeWorker {
             launches_.erase(found);
         } else if (message.kind == MessageKind::assign) {
             if (!has_job_) throw std::logic_error("assigned a section before the job was sent");
+            if (cache_.size() != expected_)
+                throw std::logic_error("assigned a section before its cache was sent");
             const Assignment assignment{
                 {message.head.at("section"), rect_from_json(message.head.at("keep")),
                  rect_from_json(message.head.at("render"))},
@@ -75,6 +82,13 @@ class FakeWorker {
         if (advance(*it)) launches_.erase(it);
     }
 
+    // What gathering a section brings.
+    static std::string sample_of(const Rect& render) {
+        return "C1\t" + std::to_string(render.x0) + '\t' + std::to_string(render.y0) +
+               "\t0\t0\t0\t0\t0\t0\t0\t0\n";
+    }
+
+    const std::string& cache() const { return cache_; }
     bool stopped() const { return stopped_; }
     int most_in_flight() const { return most_in_flight_; }
     const std::vector<Assignment>& assignments() const { return assignments_; }
@@ -107,6 +121,19 @@ class FakeWorker {
             send(launch, MessageKind::failed, {{"why", why}, {"cpu_seconds", 1.0}});
             return true;
         }
+        if (gathers_ && launch.next_row < render.y1) {
+            const std::string text = why.empty() ? sample_of(render) : "garbage";
+            const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+            // In two pieces, and the section is over.
+            const bool first = launch.next_row == render.y0;
+            launch.next_row = first ? render.y0 + 1 : render.y1;
+            if (render.height() == 1) launch.next_row = render.y1;
+            const auto half = render.height() == 1 ? text.size() : text.size() / 2;
+            send(launch, MessageKind::cache, nlohmann::json::object(),
+                 first ? std::vector<std::byte>(bytes, bytes + half)
+                       : std::vector<std::byte>(bytes + half, bytes + text.size()));
+            return false;
+        }
         if (launch.next_row < render.y1) {
             const int end = std::min(launch.next_row + setup_.band_rows, render.y1);
             const Rect rect{render.x0, launch.next_row, render.x1, end};
@@ -131,7 +158,9 @@ class FakeWorker {
 
     Transport& transport_;
     FakeWorkerSetup setup_;
-    bool has_job_ = false, stopped_ = false;
+    bool has_job_ = false, stopped_ = false, gathers_ = false;
+    std::string cache_;         // that it was sent
+    std::size_t expected_ = 0;  // bytes of it
     int most_in_flight_ = 0;
     std::vector<Launch> launches_;
     std::vector<Assignment> assignments_;

@@ -8,7 +8,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -20,6 +22,7 @@ using nlohmann::json;
 constexpr std::string_view journal_name = "journal.json";
 constexpr std::string_view sections_name = "sections.jsonl";
 constexpr std::string_view pixels_extension = ".pixels";
+constexpr std::string_view cache_extension = ".cache";
 constexpr int format_version = 2;
 
 [[noreturn]] void cannot(const char* what, const std::filesystem::path& file) {
@@ -35,8 +38,11 @@ std::string to_text(const json& value, int indent = -1) {
 bool belongs_to_a_journal(const std::filesystem::path& file) {
     const std::string name = file.filename().string();
     if (name == journal_name || name == sections_name) return true;
-    return file.extension() == pixels_extension &&
-           name.find_first_not_of("0123456789") == name.size() - pixels_extension.size();
+    return std::ranges::any_of(
+        std::array{pixels_extension, cache_extension}, [&](std::string_view extension) {
+            return file.extension() == extension &&
+                   name.find_first_not_of("0123456789") == name.size() - extension.size();
+        });
 }
 
 // Nothing else is ever removed: --work-dir may name any folder.
@@ -84,6 +90,13 @@ int missing_folders(std::filesystem::path folder) {
 
 void remove_empty_folders(std::filesystem::path folder, int how_many) {
     for (; how_many > 0; --how_many, folder = folder.parent_path()) ::rmdir(folder.c_str());
+}
+
+constexpr std::size_t sha1_line = 41;
+
+std::string sha1_of_text(const std::string& text) {
+    OIIO::SHA1 sha(text.data(), text.size());
+    return sha1_digits(sha);
 }
 
 bool is_entry(const json& entry) {
@@ -230,6 +243,41 @@ std::vector<std::byte> Journal::read(int section) const {
     if (!in.read(reinterpret_cast<char*>(pixels.data()), static_cast<std::streamsize>(size)))
         cannot("read", pixel_file(section));
     return pixels;
+}
+
+std::filesystem::path Journal::cache_file(int waves) const {
+    return folder_ / fmt::format("{}{}", waves, cache_extension);
+}
+
+void Journal::keep_cache(int waves, const std::string& cache) {
+    const std::filesystem::path file = cache_file(waves);
+    std::ofstream out(file, std::ios::binary);
+    out << cache << sha1_of_text(cache) << '\n';
+    if (!out.flush()) cannot("write", file);
+    std::error_code ignored;
+    for (int earlier = 0; earlier < waves; ++earlier)
+        std::filesystem::remove(cache_file(earlier), ignored);
+}
+
+int Journal::waves_kept() const {
+    int waves = 0;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored))
+        if (entry.path().extension() == cache_extension && belongs_to_a_journal(entry.path()))
+            waves = std::max(waves, std::atoi(entry.path().stem().c_str()));
+    return waves;
+}
+
+Journal::Cache Journal::cache() const {
+    for (int waves = waves_kept(); waves > 0; --waves) {
+        std::ifstream in(cache_file(waves), std::ios::binary);
+        std::string text{std::istreambuf_iterator<char>(in), {}};
+        if (text.size() < sha1_line) continue;
+        const std::string sha1 = text.substr(text.size() - sha1_line);
+        text.resize(text.size() - sha1_line);
+        if (sha1 == sha1_of_text(text) + '\n') return {waves, std::move(text)};
+    }
+    return {};
 }
 
 void Journal::remove() {

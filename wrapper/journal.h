@@ -2,7 +2,8 @@
 //
 // A journal is a folder: journal.json says what is rendered and how it is cut up, sections.jsonl
 // has one line for each finished section with the SHA-1 of its pixels, N.pixels has those pixels. A
-// section counts only with its line, which is written last.
+// section counts only with its line, which is written last. N.cache is the radiosity cache after N
+// waves of gathering (radiosity_sharing.h), and its SHA-1 in a last line.
 #pragma once
 
 #include "image_file.h"
@@ -46,6 +47,16 @@ class Journal {
     // The pixels of such a section, all rows of `render`. Throws Failure(Exit::file).
     std::vector<std::byte> read(int section) const;
 
+    // The cache that `waves` waves have made; it stands for all earlier ones. Throws
+    // Failure(Exit::file).
+    void keep_cache(int waves, const std::string& cache);
+    struct Cache {
+        int waves = 0;
+        std::string text;
+    };
+    // The last one that was kept and is still as it was; {0, ""} where there is none.
+    Cache cache() const;
+
     // Removes the journal, and the folders that create() made for it (this run's or the one's that
     // it goes on from) where nothing else is in them: the result is complete.
     void remove();
@@ -56,6 +67,8 @@ class Journal {
     explicit Journal(std::filesystem::path folder) : folder_(std::move(folder)) {}
     void begin(const nlohmann::json& identity);
     std::filesystem::path pixel_file(int section) const;
+    std::filesystem::path cache_file(int waves) const;
+    int waves_kept() const;
 
     std::filesystem::path folder_;
     nlohmann::json plan_;

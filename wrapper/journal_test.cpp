@@ -206,6 +206,37 @@ TEST_F(JournalTest, NamesThatAreNoUtf8AreTheSameAgain) {
     EXPECT_NO_THROW(Journal::open(folder(), odd));
 }
 
+TEST_F(JournalTest, KeepsTheLastRadiosityCache) {
+    {
+        Journal journal = Journal::create(folder(), identity, plan);
+        EXPECT_EQ(journal.cache().waves, 0);
+        journal.keep_cache(1, "C1\n");
+        journal.keep_cache(2, "C1\nC2\n");
+        EXPECT_FALSE(fs::exists(folder() / "1.cache"));
+    }
+    Journal journal = Journal::open(folder(), identity);
+    EXPECT_EQ(journal.cache().waves, 2);
+    EXPECT_EQ(journal.cache().text, "C1\nC2\n");
+    journal.remove();
+    EXPECT_FALSE(fs::exists(folder()));
+}
+
+TEST_F(JournalTest, ADamagedCacheDoesNotCount) {
+    Journal journal = Journal::create(folder(), identity, plan);
+    journal.keep_cache(1, "C1\nC2\n");
+    std::string whole;
+    {
+        std::ifstream in(folder() / "1.cache");
+        whole.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    for (const std::string& damaged :
+         {whole.substr(0, whole.size() - 1), whole.substr(0, 20), whole.substr(1), std::string()}) {
+        std::ofstream(folder() / "1.cache") << damaged;
+        EXPECT_EQ(journal.cache().waves, 0) << damaged;
+        EXPECT_EQ(journal.cache().text, "");
+    }
+}
+
 TEST_F(JournalTest, NothingToGoOnFrom) {
     expect_failure(Exit::usage, folder().string(), [&] { Journal::open(folder(), identity); });
     fs::create_directory(folder());

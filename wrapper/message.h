@@ -15,6 +15,7 @@ enum class MessageKind : unsigned char {
     assign,     // coordinator: render this section
     progress,   // worker: how far a section is
     band,       // worker: some rows of a section's pixels, in the body
+    cache,      // both: some bytes of a radiosity cache, in the body
     done,       // worker: all bands of a section were sent; its times
     failed,     // worker: why a section did not work out
     cancel,     // coordinator: another rank was first with this section

@@ -1,12 +1,12 @@
 #include "options.h"
 
 #include "failure.h"
+#include "option_values.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <functional>
 
 namespace mpipov {
@@ -28,95 +28,6 @@ struct Row {
     void (*apply)(Options&, const std::string& value);
 };
 
-[[noreturn]] void bad_value(const std::string& value, const char* wanted) {
-    throw Failure(Exit::usage, fmt::format("'{}' is not {}", value, wanted));
-}
-
-int whole(const std::string& value, int least, const char* wanted) {
-    std::size_t used = 0;
-    int number = 0;
-    try {
-        number = std::stoi(value, &used);
-    } catch (const std::exception&) {
-        bad_value(value, wanted);
-    }
-    if (used != value.size() || number < least) bad_value(value, wanted);
-    return number;
-}
-
-std::optional<int> whole_or_auto(const std::string& value, const char* wanted) {
-    if (value == "auto") return {};
-    return whole(value, 1, wanted);
-}
-
-void set_seams(Options& o, const std::string& value) {
-    if (value == "auto") {
-        o.seams.reset();
-        return;
-    }
-    for (const Seams seams : {Seams::aligned, Seams::halo, Seams::plain})
-        if (value == to_string(seams)) {
-            o.seams = seams;
-            return;
-        }
-    if (value.rfind("halo:", 0) == 0) {
-        o.seams = Seams::halo;
-        o.halo = whole(value.substr(5), 1, "a halo: a whole number of pixels from 1");
-        return;
-    }
-    bad_value(value, "one of auto, aligned, halo, halo:N, plain");
-}
-
-void set_shape(Options& o, const std::string& value) {
-    if (value == "auto") {
-        o.shape.reset();
-        return;
-    }
-    for (const Shape shape : {Shape::columns, Shape::rows, Shape::tiles})
-        if (value == to_string(shape)) {
-            o.shape = shape;
-            return;
-        }
-    bad_value(value, "one of auto, columns, rows, tiles");
-}
-
-void set_schedule(Options& o, const std::string& value) {
-    for (const Policy policy : {Policy::static_, Policy::dynamic, Policy::cost})
-        if (value == to_string(policy)) {
-            o.schedule = policy;
-            return;
-        }
-    bad_value(value, "one of static, dynamic, cost");
-}
-
-void set_progress(Options& o, const std::string& value) {
-    if (value == "auto")
-        o.progress = ProgressStyle::automatic;
-    else if (value == "plain")
-        o.progress = ProgressStyle::plain;
-    else if (value == "none")
-        o.progress = ProgressStyle::none;
-    else
-        bad_value(value, "one of auto, plain, none");
-}
-
-void set_timeout(Options& o, const std::string& value) {
-    if (value == "auto") {
-        o.timeout_seconds.reset();
-        return;
-    }
-    std::size_t used = 0;
-    double seconds = 0;
-    try {
-        seconds = std::stod(value, &used);
-    } catch (const std::exception&) {
-        bad_value(value, "auto or a number of seconds");
-    }
-    if (used != value.size() || !(seconds > 0) || !std::isfinite(seconds))
-        bad_value(value, "auto or a number of seconds");
-    o.timeout_seconds = seconds;
-}
-
 constexpr const char* cutting = "Cutting the image up";
 constexpr const char* sharing = "Sharing the work";
 constexpr const char* files = "Files";
@@ -136,6 +47,17 @@ constexpr std::array rows{
         "halo[:N]: edges anywhere and N (2) pixels of overlap, as a serial render in one block; "
         "plain: edges anywhere; auto: aligned with antialiasing of method 1, else plain",
         "auto", set_seams},
+    Row{cutting, "radiosity", "HOW",
+        "how sections come by radiosity samples; independent: each takes its own; shared[:PASSES]: "
+        "one launch renders everything first, and all read its samples; joined[:PASSES]: sections "
+        "gather samples side by side, neighbours one after the other; auto: joined where the scene "
+        "has radiosity",
+        "auto", set_radiosity},
+    Row{cutting, "radiosity-scale", "N",
+        "samples are gathered at 1/N of the image's width and height", "1",
+        [](Options& o, const std::string& v) {
+            o.radiosity_scale = whole(v, 1, "a scale: a whole number from 1");
+        }},
     Row{sharing, "schedule", "HOW",
         "static: each rank has its sections from the start; dynamic: the next section goes to "
         "whoever is free; cost: the same by what the parts of the picture cost, the longest first",

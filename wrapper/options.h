@@ -1,6 +1,7 @@
 // mpipov's command line. One table of options serves parsing, --help and the manual page.
 #pragma once
 
+#include "radiosity_sharing.h"
 #include "schedule.h"
 #include "section.h"
 
@@ -20,6 +21,8 @@ struct Options {
     std::optional<Shape> shape;
     std::optional<Seams> seams;
     int halo = 2;
+    std::optional<Sharing> radiosity;
+    int radiosity_passes = 1, radiosity_scale = 1;
     std::optional<int> threads;
     std::optional<int> in_flight;
     std::optional<int> slots;

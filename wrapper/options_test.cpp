@@ -34,6 +34,11 @@ std::vector<Case> cases() {
         {"sections", "7", [](const Options& o) { return o.sections == 7; }},
         {"shape", "rows", [](const Options& o) { return o.shape == Shape::rows; }},
         {"seams", "plain", [](const Options& o) { return o.seams == Seams::plain; }},
+        {"radiosity", "shared:3",
+         [](const Options& o) {
+             return o.radiosity == Sharing::shared && o.radiosity_passes == 3;
+         }},
+        {"radiosity-scale", "2", [](const Options& o) { return o.radiosity_scale == 2; }},
         {"schedule", "static", [](const Options& o) { return o.schedule == Policy::static_; }},
         {"slots", "3", [](const Options& o) { return o.slots == 3; }},
         {"threads", "4", [](const Options& o) { return o.threads == 4; }},
@@ -206,6 +211,24 @@ TEST(Options, AFlagTakesNoValue) {
         SCOPED_TRACE(option);
         EXPECT_THAT(usage_error({"scene.pov", option + "=7"}), HasSubstr(option));
     }
+}
+
+TEST(Options, WaysToShareRadiosity) {
+    for (const char* text : {"independent", "shared", "joined"}) {
+        const Options options = parse_options({"--radiosity", text, "scene.pov"});
+        ASSERT_TRUE(options.radiosity);
+        EXPECT_EQ(to_string(*options.radiosity), text);
+        EXPECT_EQ(options.radiosity_passes, 1);
+    }
+    EXPECT_EQ(parse_options({"--radiosity=joined:2", "a.pov"}).radiosity_passes, 2);
+    const Options last = parse_options({"--radiosity=auto", "a.pov"});
+    EXPECT_FALSE(last.radiosity);
+    for (const char* text :
+         {"", "share", "shared:", "shared:0", "shared:x", "independent:1", "joined:2:3", ":2"})
+        EXPECT_THAT(usage_error({std::string("--radiosity=") + text, "a.pov"}),
+                    HasSubstr("--radiosity"))
+            << text;
+    EXPECT_THAT(usage_error({"--radiosity-scale", "0", "a.pov"}), HasSubstr("--radiosity-scale"));
 }
 
 TEST(Options, HelpShowsEveryOptionInItsGroup) {

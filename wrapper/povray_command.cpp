@@ -58,8 +58,8 @@ std::string quote_argument(const std::string& argument) {
     return argument.substr(0, value) + quoted(name);
 }
 
-std::vector<std::string> command(const JobCommand& job, const std::vector<std::string>& area,
-                                 const std::filesystem::path& output_base) {
+// All but what it writes.
+std::vector<std::string> command(const JobCommand& job, const std::vector<std::string>& area) {
     std::vector<std::string> argv{job.povray};
     argv.insert(argv.end(), job.user_arguments.begin(), job.user_arguments.end());
     argv.insert(argv.end(), job.format_arguments.begin(), job.format_arguments.end());
@@ -70,6 +70,18 @@ std::vector<std::string> command(const JobCommand& job, const std::vector<std::s
     argv.insert(argv.end(), area.begin(), area.end());
     argv.push_back(fmt::format("+WT{}", job.threads));
     if (job.block > 0) argv.push_back(fmt::format("+BS{}", job.block));
+    return argv;
+}
+
+std::vector<std::string> image_command(const JobCommand& job, const std::vector<std::string>& area,
+                                       const std::filesystem::path& output_base) {
+    std::vector<std::string> argv = command(job, area);
+    // What is loaded makes the pretrace vain.
+    if (!job.radiosity_cache.empty())
+        for (const std::string& one :
+             {std::string("+RFI"), std::string("-RFO"), std::string("-RVP"),
+              fmt::format("+RF\"{}\"", job.radiosity_cache.string())})
+            argv.push_back(one);
     argv.push_back(fmt::format("+O\"{}\"", output_base.string()));
     return argv;
 }
@@ -91,13 +103,27 @@ std::vector<std::string> area_arguments(const Rect& area) {
 
 std::vector<std::string> whole_command(const JobCommand& job,
                                        const std::filesystem::path& output_base) {
-    return command(job, {}, output_base);
+    return image_command(job, {}, output_base);
 }
 
 std::vector<std::string> section_command(const JobCommand& job, const Rect& render,
                                          const ImageSize& image,
                                          const std::filesystem::path& output_base) {
-    return command(job, area_arguments(launch_area(render, image)), output_base);
+    return image_command(job, area_arguments(launch_area(render, image)), output_base);
+}
+
+std::vector<std::string> gather_command(const JobCommand& job, const Rect& render,
+                                        const ImageSize& image, const std::filesystem::path& cache,
+                                        bool reads) {
+    std::vector<std::string> argv = command(job, area_arguments(launch_area(render, image)));
+    // No image, and no antialiasing, whose rays between the pixels take hardly any new samples.
+    for (const std::string& one :
+         {fmt::format("+W{}", image.width), fmt::format("+H{}", image.height), std::string("-A"),
+          std::string("-F"), std::string(reads ? "+RFI" : "-RFI"), std::string("+RFO"),
+          fmt::format("+RF\"{}\"", cache.string())})
+        argv.push_back(one);
+    if (reads) argv.emplace_back("-RVP");
+    return argv;
 }
 
 std::vector<std::pair<std::string, std::string>> temporary_files_in(

@@ -32,6 +32,8 @@ struct JobCommand {
     std::vector<std::string> format_arguments;  // how sections are stored, empty: as the user said
     int threads = 1;
     int block = 0;  // +BS, 0: as the user said
+    // A radiosity cache that every launch reads; empty: none of ours.
+    std::filesystem::path radiosity_cache = {};
 };
 
 // The whole argv. `output_base` is the section's own: POV-Ray names the image and its .pov-state
@@ -40,7 +42,14 @@ std::vector<std::string> section_command(const JobCommand& job, const Rect& rend
                                          const ImageSize& image,
                                          const std::filesystem::path& output_base);
 
-// The same for all that the user asked for: no area, so it can start before anybody knows the size.
+// The argv of a launch that writes no image but takes radiosity samples, into `cache`: behind those
+// that are there already where it `reads` them first.
+std::vector<std::string> gather_command(const JobCommand& job, const Rect& render,
+                                        const ImageSize& image, const std::filesystem::path& cache,
+                                        bool reads);
+
+// section_command for all that the user asked for: no area, so it can start before anybody knows
+// the size.
 std::vector<std::string> whole_command(const JobCommand& job,
                                        const std::filesystem::path& output_base);
 

@@ -155,6 +155,30 @@ TEST(PovrayCommand, OnlyJpegAndTargaAreStoredDifferently) {
         EXPECT_THAT(section_format(type), IsEmpty());
 }
 
+TEST(PovrayCommand, ACacheOfTheJobIsRead) {
+    JobCommand job;
+    job.radiosity_cache = "some where/radiosity.cache";
+    const auto argv = section_command(job, {0, 0, 8, 8}, {32, 32}, "out");
+    EXPECT_THAT(
+        argv, testing::IsSupersetOf({"+RFI", "-RFO", "-RVP", "+RF\"some where/radiosity.cache\""}));
+    EXPECT_EQ(argv.back(), "+O\"out\"");
+}
+
+TEST(PovrayCommand, GatheringWritesSamplesAndNoImage) {
+    JobCommand job;
+    job.user_arguments = {"scene.pov", "+W320", "+A0.1", "+RFI"};
+    const auto first = gather_command(job, {0, 0, 8, 8}, {32, 32}, "out", false);
+    EXPECT_THAT(first, testing::IsSupersetOf({"+W32", "+H32", "-A", "-F", "-RFI", "+RFO",
+                                              "+RF\"out\"", "+EC8", "+ER8"}));
+    EXPECT_THAT(first, testing::Not(testing::Contains("-RVP")));
+    EXPECT_THAT(first, testing::Not(testing::Contains(testing::StartsWith("+O"))));
+    // Ours are the last ones, which POV-Ray takes.
+    EXPECT_LT(std::find(first.begin(), first.end(), "+W320"),
+              std::find(first.begin(), first.end(), "+W32"));
+    const auto later = gather_command(job, {0, 0, 8, 8}, {32, 32}, "out", true);
+    EXPECT_THAT(later, testing::IsSupersetOf({"+RFI", "+RFO", "-RVP"}));
+}
+
 TEST(WholeCommand, IsASectionsWithoutAnArea) {
     JobCommand job;
     job.user_arguments = {"scene.pov", "+W64"};

@@ -74,6 +74,19 @@ std::string text_of(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
+bool is_on(const std::map<std::string, std::string>& settings, const char* key) {
+    const auto found = settings.find(key);
+    if (found == settings.end()) return false;
+    std::string value = found->second;
+    std::ranges::transform(value, value.begin(), [](unsigned char c) { return std::tolower(c); });
+    return value == "on" || value == "true" || value == "yes" || value == "1";
+}
+
+bool has_own_radiosity_cache(const std::string& ini) {
+    const auto settings = parse_ini(ini);
+    return is_on(settings, "radiosity_from_file") || is_on(settings, "radiosity_to_file");
+}
+
 int block_size(const std::string& ini) {
     const auto settings = parse_ini(ini);
     const auto found = settings.find("render_block_size");
@@ -153,6 +166,7 @@ Probe probe_once(const ProbeRequest& request) {
                      std::string(to_string(layout.depth))};
     const std::string settings = text_of(launches.settings_file());
     result.user_block = block_size(settings);
+    result.own_cache = has_own_radiosity_cache(settings);
     probe.settings = ini_settings(settings);
     const bool diffused = image->dithering.find("diffusion") != std::string::npos;
     const auto orders = launches.in_several_orders();

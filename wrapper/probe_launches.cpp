@@ -176,7 +176,8 @@ void ProbeLaunches::start(const std::string& name, const std::vector<std::string
     std::vector<std::string> argv{request_.povray};
     for (const auto* list : {&request_.user_arguments, &more})
         argv.insert(argv.end(), list->begin(), list->end());
-    for (const char* ours : {"-D", "-P", "-C", "+V", "+WT1", "All_Console=on"})
+    // A user's radiosity cache is not for samples of a small picture.
+    for (const char* ours : {"-D", "-P", "-C", "+V", "+WT1", "-RFO", "All_Console=on"})
         argv.emplace_back(ours);
     // The first launch is asked for the user's own output file; it never comes to write one.
     if (!launches_.empty()) argv.push_back(fmt::format("+O\"{}\"", (folder / image_name).string()));

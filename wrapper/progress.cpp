@@ -55,6 +55,20 @@ void ProgressView::clear() {
 }
 
 void ProgressView::update(double fraction, int sections_done, int sections, double seconds) {
+    show(fraction, seconds,
+         [&] { return progress_line(fraction, sections_done, sections, seconds); });
+}
+
+void ProgressView::update_gathering(int wave, int waves, double fraction, double seconds) {
+    show(wave - 1 + fraction, seconds, [&] {
+        return fmt::format("radiosity samples, {:.0f} % of wave {} of {}",
+                           std::floor(fraction * 100), wave, waves);
+    });
+}
+
+// `fraction` only grows, and only says when a line is due.
+void ProgressView::show(double fraction, double seconds,
+                        const std::function<std::string()>& line_of) {
     if (style_ == ProgressStyle::none) return;
     const bool due =
         live_ ? seconds - last_update_ >= live_interval
@@ -63,7 +77,7 @@ void ProgressView::update(double fraction, int sections_done, int sections, doub
     if (!due) return;
     last_update_ = seconds;
     last_fraction_ = fraction;
-    const std::string line = progress_line(fraction, sections_done, sections, seconds);
+    const std::string line = line_of();
     if (live_) {
         print(fmt::format("\r{}\x1b[K", line));
         shown_ = true;

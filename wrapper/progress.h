@@ -3,6 +3,7 @@
 
 #include "options.h"
 
+#include <functional>
 #include <string>
 
 namespace mpipov {
@@ -17,6 +18,8 @@ class ProgressView {
 
     // fraction: 0 to 1 of the pixels; seconds since the run began.
     void update(double fraction, int sections_done, int sections, double seconds);
+    // Before the sections: `wave` of `waves` gathers radiosity samples, from 1.
+    void update_gathering(int wave, int waves, double fraction, double seconds);
     // All is rendered.
     void finish(int sections, double seconds);
     // A line of its own, above the live one. What is no progress (POV-Ray's warnings, what the user
@@ -27,6 +30,7 @@ class ProgressView {
 
   private:
     static void print(const std::string& text);
+    void show(double fraction, double seconds, const std::function<std::string()>& line);
     void clear();
 
     ProgressStyle style_;

@@ -7,6 +7,7 @@
 #include "early_render.h"
 #include "event_loop.h"
 #include "failure.h"
+#include "gather.h"
 #include "image_library.h"
 #include "interrupt.h"
 #include "job_identity.h"
@@ -92,6 +93,9 @@ PlanRequest plan_request(const Options& options, const MetRanks& met, int early_
     request.seams = options.seams;
     request.halo = options.halo;
     request.sections = options.sections;
+    request.radiosity = options.radiosity;
+    request.radiosity_passes = options.radiosity_passes;
+    request.radiosity_scale = options.radiosity_scale;
     request.schedule = options.schedule;
     request.threads = options.threads;
     request.in_flight = options.in_flight;
@@ -123,6 +127,10 @@ JobCommand job_command(const Options& options, const std::vector<std::string>& a
     return job;
 }
 
+double automatic_timeout(double cpu_seconds) {
+    return timeout_base_seconds + timeout_factor * cpu_seconds;
+}
+
 CoordinatorSetup coordinator_setup(const Options& options,
                                    const std::vector<std::string>& arguments, const Probe& probe,
                                    const Plan& plan, const std::vector<RankRecord>& ranks) {
@@ -138,8 +146,14 @@ CoordinatorSetup coordinator_setup(const Options& options,
     setup.in_flight = plan.in_flight;
     setup.retries = options.retries;
     setup.timeout_seconds = options.timeout_seconds.value_or(
-        timeout_base_seconds +
-        timeout_factor * plan.record.predicted.cpu_seconds / plan.record.sections);
+        automatic_timeout(plan.record.predicted.cpu_seconds / plan.record.sections));
+    return setup;
+}
+
+GatherSetup gather_setup(const Options& options, const CoordinatorSetup& job, const Plan& plan) {
+    GatherSetup setup{job, plan.waves, {}};
+    setup.timeout_seconds =
+        options.timeout_seconds.value_or(automatic_timeout(plan.record.predicted.cpu_seconds));
     return setup;
 }
 
@@ -163,7 +177,7 @@ Canvas make_canvas(const PlanRecord& plan) {
 std::optional<Journal> begin_journal(const Options& options, const OutputPlace& place,
                                      const nlohmann::json& identity, const Plan& plan) {
     if (options.resume) return Journal::open(place.work_folder(), identity);
-    if (plan.record.sections == 1) return {};
+    if (plan.record.sections == 1 && plan.waves.empty()) return {};
     return Journal::create(place.work_folder(), identity, to_json(plan.record));
 }
 
@@ -250,13 +264,21 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
         if (options.resume) take_grid(plan, *journal, options);
         record.plan = plan.record;
         record.output = place.image();
-        coordinator.emplace(coordinator_setup(options, arguments, probe, plan, met.ranks),
-                            transport, canvas, journal ? &*journal : nullptr,
-                            [&clock] { return clock.seconds(); });
-
+        const auto now = [&clock] { return clock.seconds(); };
         ProgressView progress(options.progress);
         for (const std::string& warning : probe.warnings) progress.say("POV-Ray: " + warning);
         for (const std::string& note : plan.notes) progress.say("mpipov: " + note);
+        CoordinatorSetup job = coordinator_setup(options, arguments, probe, plan, met.ranks);
+        if (!plan.waves.empty())
+            job.cache = gather_radiosity(gather_setup(options, job, plan),
+                                         {transport, worker, journal ? &*journal : nullptr, now,
+                                          [&](int wave, double fraction) {
+                                              progress.update_gathering(
+                                                  wave + 1, static_cast<int>(plan.waves.size()),
+                                                  fraction, clock.seconds());
+                                          }},
+                                         record, job.ranks);
+        coordinator.emplace(std::move(job), transport, canvas, journal ? &*journal : nullptr, now);
         if (options.resume)
             progress.inform(fmt::format("mpipov: {} of {} sections were finished before",
                                         take_finished_sections(*coordinator, *journal),

@@ -52,6 +52,11 @@ void take_grid(Plan& plan, const Journal& journal, const Options& options) {
     if (options.sections)
         require_same(journal, "--sections", fmt::format("{}", *options.sections),
                      fmt::format("{}", earlier.sections));
+    if (options.radiosity)
+        require_same(
+            journal, "--radiosity",
+            describe({*options.radiosity, options.radiosity_passes, options.radiosity_scale}),
+            describe(earlier.radiosity));
     plan.record.shape = earlier.shape;
     plan.record.seams = earlier.seams;
     plan.record.halo = earlier.halo;
@@ -61,7 +66,10 @@ void take_grid(Plan& plan, const Journal& journal, const Options& options) {
     plan.costs.clear();  // they are those of other sections
     const GridRequest grid{earlier.region,   earlier.shape, earlier.seams,
                            earlier.sections, earlier.halo,  earlier.block};
+    plan.record.radiosity = earlier.radiosity;
     plan.partition = earlier.cuts.empty() ? make_partition(grid) : partition_of(grid, earlier.cuts);
+    plan.waves = gather_waves(earlier.radiosity, {earlier.image.width, earlier.image.height},
+                              plan.partition);
 }
 
 int take_finished_sections(Coordinator& coordinator, const Journal& journal) {
@@ -76,11 +84,18 @@ Failure end_of_run(const std::exception& error, Journal* journal, const Coordina
     Failure failure = as_failure(error);
     const int done = coordinator != nullptr ? coordinator->sections_done() : 0;
     if (journal == nullptr) return failure;
+    const int waves = journal->cache().waves;
     if (done > 0)
         return {failure.code(),
                 fmt::format("{}; {} of {} sections are kept in '{}': go on with --resume",
                             failure.what(), done, coordinator->sections_total(),
                             journal->folder().string())};
+    if (waves > 0)
+        return {
+            failure.code(),
+            fmt::format("{}; the radiosity cache of {} wave{} is kept in '{}': go on with "
+                        "--resume",
+                        failure.what(), waves, waves == 1 ? "" : "s", journal->folder().string())};
     if (!resumed) journal->remove();
     return failure;
 }

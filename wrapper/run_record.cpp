@@ -92,6 +92,52 @@ SectionRecord section_from(const json& j) {
     return s;
 }
 
+json radiosity_json(const RadiositySharing& radiosity) {
+    return {{"sharing", to_string(radiosity.how)},
+            {"passes", radiosity.passes},
+            {"scale", radiosity.scale}};
+}
+
+// Nothing in the records of versions that knew one way only.
+RadiositySharing radiosity_from(const json& plan) {
+    const auto found = plan.find("radiosity");
+    if (found == plan.end()) return {};
+    return {enum_from(member(*found, "sharing"),
+                      {Sharing::independent, Sharing::shared, Sharing::joined}),
+            member<int>(*found, "passes"), member<int>(*found, "scale")};
+}
+
+json sections_json(const std::vector<SectionRecord>& sections) {
+    json all = json::array();
+    for (const SectionRecord& section : sections) all.push_back(section_json(section));
+    return all;
+}
+
+std::vector<SectionRecord> sections_from(const json& all) {
+    std::vector<SectionRecord> sections;
+    for (const json& section : all) sections.push_back(section_from(section));
+    return sections;
+}
+
+json waves_json(const std::vector<WaveRecord>& waves) {
+    json all = json::array();
+    for (const WaveRecord& wave : waves)
+        all.push_back({{"width", wave.width},
+                       {"height", wave.height},
+                       {"samples", wave.samples},
+                       {"sections", sections_json(wave.sections)}});
+    return all;
+}
+
+std::vector<WaveRecord> waves_from(const json& all) {
+    std::vector<WaveRecord> waves;
+    for (const json& wave : all)
+        waves.push_back({member<int>(wave, "width"), member<int>(wave, "height"),
+                         member<long long>(wave, "samples"),
+                         sections_from(member(wave, "sections"))});
+    return waves;
+}
+
 json seam_json(const SeamRecord& s) {
     return {{"a", s.seam.a},
             {"b", s.seam.b},
@@ -145,6 +191,7 @@ json to_json(const PlanRecord& plan) {
               {"block", plan.block},
               {"sections", plan.sections},
               {"cuts", cuts_json(plan.cuts)}}},
+            {"radiosity", radiosity_json(plan.radiosity)},
             {"schedule", plan.schedule},
             {"threads", plan.threads},
             {"in_flight", plan.in_flight},
@@ -168,6 +215,7 @@ PlanRecord plan_from_json(const json& j) {
     plan.block = member<int>(grid, "block");
     plan.sections = member<int>(grid, "sections");
     for (const json& cut : grid.value("cuts", json::array())) plan.cuts.push_back(rect_from(cut));
+    plan.radiosity = radiosity_from(j);
     plan.schedule = member<std::string>(j, "schedule");
     plan.threads = member<int>(j, "threads");
     plan.in_flight = member<int>(j, "in_flight");
@@ -177,17 +225,14 @@ PlanRecord plan_from_json(const json& j) {
 }
 
 json to_json(const RunRecord& record) {
-    json ranks = json::array(), sections = json::array(), seams = json::array(),
-         repairs = json::array();
+    json ranks = json::array(), seams = json::array();
     for (const RankRecord& r : record.ranks)
         ranks.push_back({{"rank", r.rank},
                          {"host", r.host},
                          {"slots", r.slots},
                          {"sections", r.sections},
                          {"busy_seconds", r.busy_seconds}});
-    for (const SectionRecord& s : record.sections) sections.push_back(section_json(s));
     for (const SeamRecord& s : record.seams) seams.push_back(seam_json(s));
-    for (const SectionRecord& s : record.repairs) repairs.push_back(section_json(s));
     return {{"format", "mpipov-run"},
             {"version", format_version},
             {"complete", record.complete},
@@ -198,9 +243,10 @@ json to_json(const RunRecord& record) {
             {"output", {{"file", record.output.string()}, {"pixel_sha1", record.pixel_sha1}}},
             {"plan", to_json(record.plan)},
             {"ranks", ranks},
-            {"sections", sections},
+            {"waves", waves_json(record.waves)},
+            {"sections", sections_json(record.sections)},
             {"seams", seams},
-            {"repairs", repairs},
+            {"repairs", sections_json(record.repairs)},
             // Of what --dry-run promised; above 1: it took longer.
             {"prediction",
              {{"wall_ratio", record.complete ? ratio(record.totals.wall_seconds,
@@ -237,9 +283,10 @@ RunRecord run_from_json(const json& j) {
             record.ranks.push_back({member<int>(r, "rank"), member<std::string>(r, "host"),
                                     member<int>(r, "slots"), member<int>(r, "sections"),
                                     member<double>(r, "busy_seconds")});
-        for (const json& s : member(j, "sections")) record.sections.push_back(section_from(s));
+        record.waves = waves_from(j.value("waves", json::array()));
+        record.sections = sections_from(member(j, "sections"));
         for (const json& s : member(j, "seams")) record.seams.push_back(seam_from(s));
-        for (const json& s : member(j, "repairs")) record.repairs.push_back(section_from(s));
+        record.repairs = sections_from(member(j, "repairs"));
         const json& totals = member(j, "totals");
         record.totals = {member<double>(totals, "wall_seconds"),
                          member<double>(totals, "cpu_seconds"),

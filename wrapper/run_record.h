@@ -3,6 +3,7 @@
 // monotonic clock. Rectangles are half-open pixels, 0-based from the top left.
 #pragma once
 
+#include "radiosity_sharing.h"
 #include "section.h"
 
 #include <nlohmann/json.hpp>
@@ -40,6 +41,7 @@ struct PlanRecord {
     int halo = 0, block = 32, sections = 1;
     // What each section keeps, where they are no regular grid (cut_by_cost); empty: they are.
     std::vector<Rect> cuts;
+    RadiositySharing radiosity;
     std::string schedule;
     int threads = 1, in_flight = 1;
     Predicted predicted;
@@ -82,6 +84,13 @@ struct Totals {
     int copies = 0;  // launches of a section that was under way elsewhere
 };
 
+// Sections that gathered radiosity samples side by side (radiosity_sharing.h).
+struct WaveRecord {
+    int width = 0, height = 0;            // of the render that they are sections of
+    long long samples = 0;                // in the cache, once theirs were joined
+    std::vector<SectionRecord> sections;  // rectangles in pixels of that render
+};
+
 struct RunRecord {
     bool complete = false;
     std::map<std::string, std::string> versions;  // mpipov, povray, mpi, openimageio
@@ -93,6 +102,7 @@ struct RunRecord {
     PlanRecord plan;
     std::vector<RankRecord> ranks;
     std::vector<SectionRecord> sections;
+    std::vector<WaveRecord> waves;  // before the sections; not those of an earlier run
     std::vector<SeamRecord> seams;
     std::vector<SectionRecord> repairs;  // seams that were rendered again, over the sections
     Totals totals;

@@ -32,6 +32,8 @@ RunRecord sample_record() {
     r.plan.predicted = {1.25, 2.5};
     r.ranks = {{0, "n1", 2, 2, 3.5}};
     r.sections = {{{0, {0, 0, 32, 48}, {0, 0, 34, 48}}, 0, "n1", 0.5, 1.5, 1.0, 0.9, 2, false}};
+    r.plan.radiosity = {Sharing::shared, 2, 3};
+    r.waves = {{21, 16, 77, r.sections}};
     r.seams = {{{0, 1, true, 32, 0, 48}, true, 3, 7.0, 4}};
     r.repairs = {{{2, {31, 0, 33, 48}, {27, 0, 37, 48}}, 1, "n2", 1.5, 2.5, 1.0, 0.9, 1, false}};
     r.totals = {2.0, 3.0, 0.01, 5, 1};
@@ -64,6 +66,15 @@ TEST(RunRecord, IsWrittenAsAWholeUnderAnyNameOrNotAtAll) {
     std::filesystem::create_directories(in_the_way / "inside");
     EXPECT_THROW(write_run_record(in_the_way, sample_record()), std::runtime_error);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.path()), {}), 2);
+}
+
+TEST(RunRecord, ReadsRecordsOfVersionsThatSharedNoRadiosity) {
+    nlohmann::json json = to_json(sample_record());
+    json.erase("waves");
+    json["plan"].erase("radiosity");
+    const RunRecord record = run_from_json(json);
+    EXPECT_EQ(record.plan.radiosity, RadiositySharing());
+    EXPECT_TRUE(record.waves.empty());
 }
 
 TEST(RunRecord, NamesWhatIsMissing) {

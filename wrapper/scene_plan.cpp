@@ -205,6 +205,32 @@ Choice choose_sections(const PlanRequest& request, const GridRequest& grid, cons
     return choice;
 }
 
+RadiositySharing choose_sharing(const PlanRequest& request, const ProbeResult& probe, int sections,
+                                std::vector<std::string>& notes) {
+    const bool asked = request.radiosity.value_or(Sharing::independent) != Sharing::independent;
+    if (!probe.report.radiosity) {
+        if (asked) notes.push_back("the scene has no radiosity: --radiosity does nothing");
+        return {};
+    }
+    if (probe.own_cache) {
+        if (asked)
+            notes.push_back(
+                "the settings name a radiosity cache (+RFI, +RFO): --radiosity does "
+                "nothing");
+        return {};
+    }
+    const Sharing by_itself = sections > 1 ? Sharing::joined : Sharing::independent;
+    const Sharing how = request.radiosity.value_or(by_itself);
+    if (how == Sharing::independent) return {};
+    return {how, request.radiosity_passes, request.radiosity_scale};
+}
+
+std::vector<int> sizes_of(const std::vector<GatherWave>& waves) {
+    std::vector<int> sizes;
+    for (const GatherWave& wave : waves) sizes.push_back(static_cast<int>(wave.sections.size()));
+    return sizes;
+}
+
 }  // namespace
 
 Plan make_plan(const PlanRequest& request, const ProbeResult& given) {
@@ -268,10 +294,17 @@ Plan make_plan(const PlanRequest& request, const ProbeResult& given) {
         plan.in_flight.push_back(
             request.in_flight.value_or(std::max(1, slots / choice.threads) * per_lane));
     record.in_flight = *std::max_element(plan.in_flight.begin(), plan.in_flight.end());
-    plan.takes_early = request.early_threads > 0 && choice.sections == 1 &&
+    record.radiosity = choose_sharing(request, probe, choice.sections, plan.notes);
+    plan.waves =
+        gather_waves(record.radiosity, {record.image.width, record.image.height}, plan.partition);
+    plan.takes_early = request.early_threads > 0 && choice.sections == 1 && plan.waves.empty() &&
                        choice.threads == request.early_threads && grid.seams != Seams::halo;
-    record.predicted = {cost.wall_seconds(choice.sections, all_lanes, choice.threads),
-                        cost.cpu_seconds(choice.sections)};
+    const Predicted gathering =
+        gathering_cost(cost, record.radiosity, sizes_of(plan.waves), all_lanes, choice.threads);
+    if (!plan.waves.empty()) cost = with_cache(cost);
+    record.predicted = {
+        gathering.wall_seconds + cost.wall_seconds(choice.sections, all_lanes, choice.threads),
+        gathering.cpu_seconds + cost.cpu_seconds(choice.sections)};
     if (choice.sections < cores.ranks)
         plan.notes.push_back(fmt::format("{} of {} ranks have nothing to render: {} sections",
                                          cores.ranks - choice.sections, cores.ranks,

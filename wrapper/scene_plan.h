@@ -20,6 +20,8 @@ struct PlanRequest {
     std::optional<Seams> seams;  // empty: auto
     int halo = 2;
     std::optional<int> sections;
+    std::optional<Sharing> radiosity;  // empty: auto
+    int radiosity_passes = 1, radiosity_scale = 1;
     Policy schedule = Policy::dynamic;
     std::optional<int> threads;
     std::optional<int> in_flight;
@@ -37,6 +39,7 @@ struct PlanRequest {
 struct Plan {
     PlanRecord record;
     Partition partition;
+    std::vector<GatherWave> waves;   // what gathers radiosity samples before the sections
     std::vector<double> costs;       // by section, CPU seconds; empty: nothing is known
     std::vector<int> slots;          // by rank: what it renders with; 0: nothing
     std::vector<int> in_flight;      // by rank: launches under way; the record's is the most

@@ -223,6 +223,91 @@ TEST(ScenePlan, RadiosityIsPinned) {
     EXPECT_EQ(many.record.threads, 1);
 }
 
+ProbeResult with_radiosity(ProbeResult probe) {
+    probe.report.radiosity = true;
+    probe.report.radiosity_cpu = 2;
+    return probe;
+}
+
+TEST(ScenePlan, RadiosityIsJoinedInWavesThatTheImageAloneDecides) {
+    const ProbeResult probe = with_radiosity(scene(640, 480, 60));
+    const Plan one = make_plan(ranks({1}), probe), many = make_plan(ranks({4, 4, 4}), probe);
+    EXPECT_EQ(one.record.radiosity, (RadiositySharing{Sharing::joined, 1, 1}));
+    ASSERT_EQ(one.waves.size(), 2U);
+    ASSERT_EQ(many.waves.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(one.waves[i].sections, many.waves[i].sections);
+}
+
+TEST(ScenePlan, NothingIsGatheredThatTheSceneDoesNotCallFor) {
+    PlanRequest request = ranks({2});
+    const Plan plain = make_plan(request, scene(640, 480, 60));
+    EXPECT_EQ(plain.record.radiosity.how, Sharing::independent);
+    EXPECT_TRUE(plain.waves.empty());
+    request.radiosity = Sharing::shared;
+    const Plan asked = make_plan(request, scene(640, 480, 60));
+    EXPECT_TRUE(asked.waves.empty());
+    EXPECT_THAT(asked.notes, testing::Contains(HasSubstr("has no radiosity")));
+    EXPECT_EQ(asked.record.predicted.cpu_seconds, plain.record.predicted.cpu_seconds);
+}
+
+TEST(ScenePlan, RadiosityIsSharedAsAskedFor) {
+    const ProbeResult probe = with_radiosity(scene(640, 480, 60));
+    PlanRequest request = ranks({2});
+    request.radiosity = Sharing::independent;
+    EXPECT_TRUE(make_plan(request, probe).waves.empty());
+    request.radiosity = Sharing::shared;
+    request.radiosity_passes = 3;
+    request.radiosity_scale = 2;
+    const Plan plan = make_plan(request, probe);
+    EXPECT_EQ(plan.record.radiosity, (RadiositySharing{Sharing::shared, 3, 2}));
+    ASSERT_EQ(plan.waves.size(), 3U);
+    EXPECT_EQ(plan.waves[0].image.width, 320);
+}
+
+TEST(ScenePlan, OneSectionHasNobodyToShareWith) {
+    const ProbeResult probe = with_radiosity(scene(32, 32, 1));
+    PlanRequest request = ranks({2});
+    request.seams = Seams::aligned;
+    request.early_threads = 1;
+    const Plan plan = make_plan(request, probe);
+    ASSERT_EQ(plan.record.sections, 1);
+    EXPECT_TRUE(plan.waves.empty());
+    EXPECT_TRUE(plan.takes_early);
+    // A more accurate render may be wanted.
+    request.radiosity = Sharing::shared;
+    const Plan asked = make_plan(request, probe);
+    EXPECT_EQ(asked.waves.size(), 1U);
+    EXPECT_FALSE(asked.takes_early);
+}
+
+TEST(ScenePlan, AUsersOwnRadiosityCacheIsLeftAlone) {
+    ProbeResult probe = with_radiosity(scene(640, 480, 60));
+    probe.own_cache = true;
+    PlanRequest request = ranks({2});
+    EXPECT_TRUE(make_plan(request, probe).waves.empty());
+    request.radiosity = Sharing::joined;
+    const Plan asked = make_plan(request, probe);
+    EXPECT_TRUE(asked.waves.empty());
+    EXPECT_THAT(asked.notes, testing::Contains(HasSubstr("+RFI")));
+}
+
+TEST(ScenePlan, WavesTakeTheirTimeAndSaveThePretrace) {
+    const ProbeResult probe = with_radiosity(scene(640, 480, 60));
+    PlanRequest request = ranks({2});
+    request.radiosity = Sharing::independent;
+    const Predicted alone = make_plan(request, probe).record.predicted;
+    request.radiosity = Sharing::joined;
+    const Plan joined = make_plan(request, probe);
+    request.radiosity = Sharing::shared;
+    const Predicted shared = make_plan(request, probe).record.predicted;
+    EXPECT_GT(joined.record.predicted.cpu_seconds, alone.cpu_seconds);
+    EXPECT_NEAR(joined.record.predicted.cpu_seconds - alone.cpu_seconds,
+                60 + joined.record.sections * 0.1, joined.record.sections * 0.1);
+    // Two cores halve the waves of joined, and cannot help a pass of shared.
+    EXPECT_LT(joined.record.predicted.wall_seconds, shared.wall_seconds);
+    EXPECT_LT(shared.cpu_seconds, joined.record.predicted.cpu_seconds);
+}
+
 TEST(ScenePlan, PinnedGridsFitSmallImagesAndLargeOnes) {
     for (const int side : {1, 2, 31, 33, 100, 8000, 20000})
         for (const int method : {1, 2}) {

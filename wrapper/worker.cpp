@@ -53,12 +53,10 @@ Worker::Worker(Transport& transport, std::filesystem::path scratch)
 void Worker::handle(const Message& message) {
     switch (message.kind) {
         case MessageKind::job:
-            job_ = {message.head.at("povray"), message.head.at("user_arguments"),
-                    message.head.at("format_arguments"), message.head.at("threads"),
-                    message.head.at("block")};
-            image_ = {message.head.at("width"), message.head.at("height")};
-            if (!message.head.at("timeout_seconds").is_null())
-                timeout_seconds_ = message.head.at("timeout_seconds").get<double>();
+            take_job(message.head);
+            break;
+        case MessageKind::cache:
+            cache_.take(message.body);
             break;
         case MessageKind::assign:
             start(message);
@@ -74,7 +72,20 @@ void Worker::handle(const Message& message) {
     }
 }
 
+void Worker::take_job(const nlohmann::json& head) {
+    cache_.begin(scratch_ / "radiosity.cache", head.at("cache_bytes"));
+    gathers_ = head.at("gathers");
+    job_ = {head.at("povray"),  head.at("user_arguments"), head.at("format_arguments"),
+            head.at("threads"), head.at("block"),          cache_.file()};
+    image_ = {head.at("width"), head.at("height")};
+    timeout_seconds_.reset();
+    if (!head.at("timeout_seconds").is_null())
+        timeout_seconds_ = head.at("timeout_seconds").get<double>();
+}
+
 void Worker::start(const Message& message) {
+    if (!cache_.complete())
+        throw std::runtime_error("a section was assigned before its radiosity cache was sent");
     Section section{message.head.at("section"), rect_from_json(message.head.at("keep")),
                     rect_from_json(message.head.at("render"))};
     const int attempt = message.head.at("attempt");
@@ -86,6 +97,8 @@ void Worker::start(const Message& message) {
                              std::move(prepared.child),
                              {},
                              std::nullopt,
+                             std::nullopt,
+                             0,
                              {},
                              0,
                              false});
@@ -101,7 +114,7 @@ void Worker::start(const Message& message) {
 }
 
 PreparedLaunch Worker::launch(const Section& section, int attempt) {
-    if (adopted_ && adopted_for_ == section.id && attempt == 1) {
+    if (adopted_ && adopted_for_ == section.id && attempt == 1 && !gathers_) {
         PreparedLaunch adopted = std::move(*adopted_);
         adopted_.reset();
         if (timeout_seconds_) adopted.child.set_timeout(*timeout_seconds_);
@@ -109,8 +122,16 @@ PreparedLaunch Worker::launch(const Section& section, int attempt) {
     }
     LaunchFolder folder(scratch_ / fmt::format("{}-{}", section.id, attempt));
     ChildRequest request;
-    request.argv =
-        section_command(job_, section.render, image_, folder.path() / section_image_name);
+    if (gathers_) {
+        const std::filesystem::path cache = folder.path() / section_cache_name;
+        const bool reads = !cache_.file().empty();
+        // POV-Ray writes behind what it has read.
+        if (reads) std::filesystem::copy_file(cache_.file(), cache);
+        request.argv = gather_command(job_, section.render, image_, cache, reads);
+    } else {
+        request.argv =
+            section_command(job_, section.render, image_, folder.path() / section_image_name);
+    }
     request.environment = temporary_files_in(folder.path());
     request.timeout_seconds = timeout_seconds_;
     return {std::move(folder), ChildProcess::start(request)};
@@ -143,19 +164,21 @@ Worker::State Worker::step(Launch& launch) {
         if (launch.cancelled) return end_cancelled(launch);
         if (!launch.broken.empty()) return end_broken(launch);
         if (launch.reader) return send_bands(launch);
+        if (launch.samples) return send_samples(launch);
         if (launch.child.poll() ||
             launch.end.seen(launch.child, launch.folder.path() / section_image_name))
-            return begin_reading(launch);
+            return gathers_ ? begin_sending_samples(launch) : begin_reading(launch);
         send_progress(launch);
         return State::idle;
     } catch (const std::exception& error) {
         launch.broken = error.what();
         launch.reader.reset();
+        launch.samples.reset();
         return end_broken(launch);
     }
 }
 
-// Where POV-Ray could not write its image it has not said so yet, and knows better why.
+// Where POV-Ray could not write its file it has not said so yet, and knows better why.
 Worker::State Worker::end_broken(Launch& launch) {
     if (!launch.child.poll()) return State::idle;
     send_failure(launch,
@@ -191,6 +214,24 @@ Worker::State Worker::begin_reading(Launch& launch) {
     return State::busy;
 }
 
+Worker::State Worker::begin_sending_samples(Launch& launch) {
+    if (launch.child.ended() && launch.child.result().exit_code != 0) {
+        send_failure(launch, describe_end(launch.child));
+        return State::over;
+    }
+    launch.samples = read_new_samples(launch.folder.path() / section_cache_name, cache_.bytes());
+    return State::busy;
+}
+
+Worker::State Worker::send_samples(Launch& launch) {
+    if (transport_.unsent_bytes() > max_band_bytes + max_band_bytes / 2) return State::idle;
+    if (auto piece = next_piece(*launch.samples, launch.samples_sent)) {
+        transport_.send({MessageKind::cache, coordinator, head_of(launch), *std::move(piece)});
+        return State::busy;
+    }
+    return send_done(launch);
+}
+
 Worker::State Worker::send_bands(Launch& launch) {
     // No more than two whole bands under way: the coordinator sets the pace.
     if (transport_.unsent_bytes() > max_band_bytes + max_band_bytes / 2) return State::idle;
@@ -200,6 +241,10 @@ Worker::State Worker::send_bands(Launch& launch) {
         transport_.send({MessageKind::band, coordinator, std::move(head), std::move(band->pixels)});
         return State::busy;
     }
+    return send_done(launch);
+}
+
+Worker::State Worker::send_done(const Launch& launch) {
     nlohmann::json head = head_of(launch);
     head["wall_seconds"] = launch.child.wall_seconds();
     head["cpu_seconds"] = launch.child.cpu_seconds();
@@ -227,7 +272,7 @@ void Worker::send_failure(const Launch& launch, const std::string& why) {
 
 void Worker::add_poll_fds(std::vector<pollfd>& fds) const {
     for (const Launch& launch : launches_) {
-        if (!launch.reader) launch.child.add_poll_fds(fds);
+        if (!launch.reader && !launch.samples) launch.child.add_poll_fds(fds);
     }
     for (const PreparedLaunch& launch : leaving_) launch.child.add_poll_fds(fds);
 }
@@ -235,7 +280,8 @@ void Worker::add_poll_fds(std::vector<pollfd>& fds) const {
 int Worker::wait_milliseconds(int at_most) const {
     int wait = at_most;
     for (const Launch& launch : launches_) {
-        wait = launch.reader ? std::min(wait, 1) : std::min(wait, launch.child.wait_milliseconds());
+        wait =
+            std::min(wait, launch.reader || launch.samples ? 1 : launch.child.wait_milliseconds());
         if (launch.end.near()) wait = std::min(wait, near_end_milliseconds);
     }
     return std::max(wait, 0);

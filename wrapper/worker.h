@@ -1,7 +1,9 @@
 // The rendering half of the protocol: keeps launches of POV-Ray under way, reads what they wrote
-// and sends the pixels to the coordinator. Single-threaded; step() never blocks for long.
+// and sends it to the coordinator: pixels, or the radiosity samples where the job is to gather
+// those. Single-threaded; step() never blocks for long.
 #pragma once
 
+#include "cache_stream.h"
 #include "child_process.h"
 #include "end_of_work.h"
 #include "image_file.h"
@@ -53,20 +55,26 @@ class Worker {
         ChildProcess child;
         EndOfWork end;
         std::optional<SectionReader> reader;  // once POV-Ray has done its work
-        std::string broken;                   // why its image could not be read; it has not ended
+        std::optional<std::string> samples;   // the same, where it gathers
+        std::size_t samples_sent = 0;
+        std::string broken;  // why what it made could not be read; it has not ended
         double last_fraction = 0;
         bool cancelled = false;  // another rank was first
     };
     enum class State { busy, idle, over };
 
+    void take_job(const nlohmann::json& head);
     void start(const Message& message);
     PreparedLaunch launch(const Section& section, int attempt);
     State step(Launch& launch);
     void cancel(const Message& message);
     State end_cancelled(Launch& launch);
     State begin_reading(Launch& launch);
+    State begin_sending_samples(Launch& launch);
     State end_broken(Launch& launch);
     State send_bands(Launch& launch);
+    State send_samples(Launch& launch);
+    State send_done(const Launch& launch);
     void send_progress(Launch& launch);
     void send_failure(const Launch& launch, const std::string& why);
     nlohmann::json head_of(const Launch& launch) const;
@@ -75,6 +83,8 @@ class Worker {
     std::filesystem::path scratch_;
     JobCommand job_;
     ImageSize image_;
+    bool gathers_ = false;
+    ReceivedCache cache_;  // of the job
     std::optional<double> timeout_seconds_;
     std::list<Launch> launches_;
     std::list<PreparedLaunch> leaving_;  // have done their work, and sleep before they end
@@ -83,8 +93,10 @@ class Worker {
     bool stopped_ = false;
 };
 
-// The name of the image that a section's launch makes, but for its extension.
+// The name of the file that a section's launch makes, but for its extension.
 constexpr const char* section_image_name = "section";
+// Where it gathers samples, with it.
+constexpr const char* section_cache_name = "section.cache";
 
 // The image that POV-Ray made of the output name `base`: it adds an extension that we do not know
 // (and the number of a frame), and may put files of other names beside it (+GA). Throws

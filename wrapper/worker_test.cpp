@@ -34,21 +34,41 @@ static_assert(large_bytes > 3 * max_band_bytes);
 // A worker on rank 1; the test is its coordinator.
 class WorkerTest : public FakePovrayTest {
   protected:
+    static nlohmann::json job_head(const ImageSize& size = image) {
+        JobCommand job = fake_job(size);
+        return {{"povray", job.povray},
+                {"user_arguments", job.user_arguments},
+                {"format_arguments", job.format_arguments},
+                {"threads", 1},
+                {"block", 0},
+                {"width", size.width},
+                {"height", size.height},
+                {"gathers", false},
+                {"cache_bytes", 0},
+                {"timeout_seconds", 30}};
+    }
+
     void send_job(const ImageSize& size = image, std::optional<double> timeout = 30,
                   const std::string& povray = MPIPOV_FAKE_POVRAY) {
-        JobCommand job = fake_job(size);
+        nlohmann::json head = job_head(size);
+        head["povray"] = povray;
+        head["timeout_seconds"] = timeout ? nlohmann::json(*timeout) : nlohmann::json();
+        worker_.handle({MessageKind::job, 1, head, {}});
+    }
+
+    // The worker reads `cache`, in pieces, or none where it is empty.
+    void send_gathering_job(const std::string& cache, const ImageSize& size = image) {
+        nlohmann::json head = job_head(size);
+        head["gathers"] = true;
+        head["cache_bytes"] = cache.size();
+        worker_.handle({MessageKind::job, 1, head, {}});
+        for (std::size_t at = 0; at < cache.size(); at += 7) send_cache(cache.substr(at, 7));
+    }
+
+    void send_cache(const std::string& text) {
+        const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
         worker_.handle(
-            {MessageKind::job,
-             1,
-             {{"povray", povray},
-              {"user_arguments", job.user_arguments},
-              {"format_arguments", job.format_arguments},
-              {"threads", 1},
-              {"block", 0},
-              {"width", size.width},
-              {"height", size.height},
-              {"timeout_seconds", timeout ? nlohmann::json(*timeout) : nlohmann::json()}},
-             {}});
+            {MessageKind::cache, 1, nlohmann::json::object(), {bytes, bytes + text.size()}});
     }
 
     void assign(int section, const Rect& render, int attempt = 1) {
@@ -287,6 +307,80 @@ TEST_F(WorkerTest, SaysThatItsGuardIsMissing) {
     const Environment no_guard("MPIPOV_GUARD", "/nowhere/guard");
     send_job();
     EXPECT_THAT(failure_of(), HasSubstr("/nowhere/guard"));
+}
+
+const std::string common_sample = "C1\t0\t0\t0\t0\t0\t0\t0\t0\t0\t0\n";
+
+std::string text_of(const std::vector<Message>& pieces) {
+    std::string text;
+    for (const Message& piece : pieces)
+        text.append(reinterpret_cast<const char*>(piece.body.data()), piece.body.size());
+    return text;
+}
+
+TEST_F(WorkerTest, GathersSamples) {
+    send_gathering_job("");
+    assign(4, {16, 0, 48, 24}, 2);
+    const std::vector<Message> heard = listen();
+    EXPECT_EQ(heard.back().kind, MessageKind::done);
+    EXPECT_THAT(of_kind(heard, MessageKind::band), testing::IsEmpty());
+    EXPECT_EQ(text_of(of_kind(heard, MessageKind::cache)),
+              common_sample + "C2\t16\t0\t48\t24\t0\t0\t0\t0\t0\t0\n");
+    EXPECT_EQ(heard.back().head.at("section"), 4);
+    EXPECT_EQ(heard.back().head.at("attempt"), 2);
+}
+
+// The next job, of an image or of another wave, must not find what an earlier one left.
+TEST_F(WorkerTest, SendsOnlyTheSamplesThatWereNotThere) {
+    const std::string known = common_sample + common_sample + common_sample;
+    for (int round = 0; round < 2; ++round) {
+        send_gathering_job(known);
+        assign(0, {0, 0, 32, 48});
+        EXPECT_EQ(text_of(of_kind(listen(), MessageKind::cache)),
+                  common_sample + "C2\t0\t0\t32\t48\t3\t0\t0\t0\t0\t0\n");
+    }
+    send_gathering_job("");
+    assign(0, {0, 0, 32, 48});
+    EXPECT_THAT(text_of(of_kind(listen(), MessageKind::cache)), HasSubstr("\t48\t0\t0"));
+    std::filesystem::remove(scratch_.path() / "radiosity.cache");
+}
+
+TEST_F(WorkerTest, RendersPixelsWithTheCacheOfTheJob) {
+    nlohmann::json head = job_head();
+    head["cache_bytes"] = common_sample.size();
+    worker_.handle({MessageKind::job, 1, head, {}});
+    send_cache(common_sample);
+    assign(0, {0, 0, 32, 48});
+    const std::vector<Message> heard = listen();
+    EXPECT_EQ(heard.back().kind, MessageKind::done);
+    expect_known_bands(of_kind(heard, MessageKind::band), {0, 0, 32, 48});
+    std::filesystem::remove(scratch_.path() / "radiosity.cache");
+}
+
+TEST_F(WorkerTest, NothingLitIsNoSamples) {
+    const Environment fault = faults("no-file");
+    send_gathering_job("");
+    assign(0, {0, 0, 32, 48});
+    const std::vector<Message> heard = listen();
+    EXPECT_EQ(heard.back().kind, MessageKind::done);
+    EXPECT_THAT(of_kind(heard, MessageKind::cache), testing::IsEmpty());
+}
+
+TEST_F(WorkerTest, SaysWhyGatheringFailed) {
+    const Environment fault = faults("error");
+    send_gathering_job("");
+    EXPECT_THAT(failure_of(), HasSubstr("Undeclared identifier"));
+}
+
+TEST_F(WorkerTest, ACacheIsAsLongAsWasSaid) {
+    nlohmann::json head = job_head();
+    head["cache_bytes"] = 5;
+    worker_.handle({MessageKind::job, 1, head, {}});
+    EXPECT_THROW(send_cache("123456"), std::runtime_error);
+    EXPECT_THROW(assign(0, {0, 0, 32, 48}), std::runtime_error);
+    send_job();
+    EXPECT_THROW(send_cache("1"), std::runtime_error);
+    std::filesystem::remove(scratch_.path() / "radiosity.cache");
 }
 
 TEST_F(WorkerTest, StopLeavesNoProcessAndNoFile) {

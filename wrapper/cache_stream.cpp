@@ -1,0 +1,63 @@
+#include "cache_stream.h"
+
+#include "message.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <iterator>
+#include <stdexcept>
+
+namespace mpipov {
+
+std::optional<std::vector<std::byte>> next_piece(std::string_view text, std::size_t& offset) {
+    const std::string_view piece = text.substr(std::min(offset, text.size()), max_band_bytes);
+    if (piece.empty()) return {};
+    offset += piece.size();
+    std::vector<std::byte> bytes(piece.size());
+    std::memcpy(bytes.data(), piece.data(), piece.size());
+    return bytes;
+}
+
+void ReceivedCache::begin(const std::filesystem::path& file, std::size_t bytes) {
+    file_.clear();
+    out_ = {};
+    announced_ = bytes;
+    received_ = 0;
+    if (bytes == 0) return;
+    file_ = file;
+    out_.open(file, std::ios::binary | std::ios::trunc);
+    if (!out_)
+        throw std::runtime_error(
+            fmt::format("cannot write '{}': {}", file.string(), std::strerror(errno)));
+}
+
+void ReceivedCache::take(const std::vector<std::byte>& piece) {
+    if (piece.size() > announced_ - received_)
+        throw std::runtime_error("more of a radiosity cache was sent than was announced");
+    out_.write(reinterpret_cast<const char*>(piece.data()),
+               static_cast<std::streamsize>(piece.size()));
+    received_ += piece.size();
+    if (complete()) out_.close();
+    if (!out_)
+        throw std::runtime_error(
+            fmt::format("cannot write '{}': {}", file_.string(), std::strerror(errno)));
+}
+
+std::string read_new_samples(const std::filesystem::path& file, std::size_t known) {
+    if (known == 0 && !std::filesystem::exists(file)) return {};
+    std::ifstream in(file, std::ios::binary);
+    in.seekg(0, std::ios::end);
+    const auto end = static_cast<std::streamoff>(in.tellg());
+    if (!in || end < static_cast<std::streamoff>(known))
+        throw std::runtime_error("POV-Ray's radiosity cache is shorter than it was before");
+    in.seekg(static_cast<std::streamoff>(known));
+    std::string text(static_cast<std::size_t>(end) - known, '\0');
+    if (!in.read(text.data(), static_cast<std::streamsize>(text.size())))
+        throw std::runtime_error("POV-Ray's radiosity cache cannot be read");
+    return text;
+}
+
+}  // namespace mpipov
