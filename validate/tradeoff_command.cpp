@@ -22,7 +22,11 @@ namespace {
 struct TradeoffOptions {
     std::string out = "tradeoff", sweep = "auto", methods = "1,2", depths = "1,2,3,4,5",
                 thresholds = "0.3,0.1,0.03,0.01", sections = "2,4,8,16,32,64", halos = "1,2,4,8",
-                threads = "1,2", average = "linear", povray = "povray", mpiexec = "mpiexec";
+                threads = "1,2",
+                radiosity =
+                    "independent,shared:1,shared:2,shared:3,joined:1,joined:2,shared:1/2,"
+                    "shared:1/4,joined:1/2",
+                average = "linear", povray = "povray", mpiexec = "mpiexec";
     int ranks = 2, repeat = 3, truth_samples = 13448;
     double truth_seconds = 600;
     std::optional<double> max_error, max_seconds;
@@ -65,6 +69,7 @@ TradeoffChoice choice_of(const TradeoffOptions& options) {
     choice.sections = sorted_numbers("--sections", options.sections, most);
     choice.halos = sorted_numbers("--halos", options.halos, most);
     choice.threads = sorted_numbers("--threads", options.threads, most);
+    choice.radiosity = each_once(split_list("--radiosity", options.radiosity));
     choice.ranks = options.ranks;
     return choice;
 }
@@ -109,6 +114,8 @@ void add_lists(CLI::App& app, TradeoffOptions& options) {
     list("--thresholds", options.thresholds, "of antialiasing");
     list("--sections", options.sections, "numbers of sections; those that cannot be are left out");
     list("--halos", options.halos, "of --seams halo:N");
+    list("--radiosity", options.radiosity,
+         "of mpipov's --radiosity; /N behind one: with --radiosity-scale N");
     list("--threads", options.threads, "of one launch, one rank");
 }
 

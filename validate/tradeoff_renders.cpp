@@ -95,15 +95,4 @@ TradeoffRun TradeoffRenderer::run_mpipov(const TradeoffSetting& setting) const {
             run.totals.cpu_seconds + run.totals.coordinator_cpu_seconds, run.plan.sections};
 }
 
-std::string mpipov_help(const fs::path& mpipov) {
-    ChildRequest child;
-    child.argv = {mpipov.string(), "--help"};
-    std::string output;
-    const ChildResult result = run_child(child, &output);
-    if (result.exit_code != 0)
-        throw Failure(Exit::file, fmt::format("cannot ask '{}' for its help: {}", mpipov.string(),
-                                              last_line(output)));
-    return output;
-}
-
 }  // namespace mpipov

@@ -50,7 +50,4 @@ class TradeoffRenderer {
     SerialRenderer serial_;
 };
 
-// What `mpipov --help` prints. Throws Failure(Exit::file) where it cannot be run.
-std::string mpipov_help(const std::filesystem::path& mpipov);
-
 }  // namespace mpipov

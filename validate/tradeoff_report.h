@@ -62,8 +62,9 @@ struct TradeoffReport {
     nlohmann::json identity;  // of the job: what must be the same to go on (job_identity.h)
     SceneCalls calls;
     std::map<std::string, bool> effects;
+    int width = 0, height = 0;  // of the whole image
+    Rect region;                // what of it is rendered
     std::optional<ImageFormat> image;
-    Rect region;
     int ranks = 0, repeat = 0;
     Averaging averaging = Averaging::linear;
     std::optional<Truth> truth;

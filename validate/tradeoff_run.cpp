@@ -1,17 +1,13 @@
 #include "tradeoff_run.h"
 
-#include "compare.h"
 #include "host_cpu.h"
 #include "interrupt.h"
-#include "job_identity.h"
-#include "povray_command.h"
-#include "probe.h"
 #include "result_file.h"
 #include "run_image.h"
-#include "scene_plan.h"
 #include "scratch.h"
 #include "tradeoff_measure.h"
 #include "tradeoff_renders.h"
+#include "tradeoff_scene.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +15,6 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <thread>
 
@@ -35,13 +30,6 @@ bool has_times(const json& earlier) {
                        [](const json& row) { return !row.at("wall").empty(); });
 }
 
-bool mentions_size(const fs::path& file) {
-    std::ifstream in(file);
-    const std::string text(std::istreambuf_iterator<char>(in), {});
-    return text.find("image_width") != std::string::npos ||
-           text.find("image_height") != std::string::npos;
-}
-
 class Sweeper {
   public:
     Sweeper(const TradeoffRequest& request, TradeoffReport& report)
@@ -52,7 +40,7 @@ class Sweeper {
                     scratch_.path()) {}
 
     Exit run() {
-        ask_scene();
+        ask_scene(request_.povray, make_scratch("probe"), report_);
         plan();
         go_on_from_earlier();
         measure_into(file_, report_, [&] {
@@ -68,35 +56,6 @@ class Sweeper {
   private:
     void save() const { file_.write(to_json(report_)); }
 
-    void ask_scene() {
-        report_.versions["povray"] = povray_version(request_.povray);
-        const Probe probe = run_probe(
-            {request_.povray, quote_arguments(request_.arguments), make_scratch("probe"), {}});
-        const ImageOptions& image = probe.result.image;
-        report_.file = image.input_file;
-        report_.scene = fs::path(image.input_file).stem().string();
-        report_.region = image.region;
-        size_ = {0, 0, image.width, image.height};
-        report_.identity = job_identity(probe, request_.arguments, report_.versions.at("povray"));
-        PlanRequest asked;
-        asked.slots = {1};
-        for (const auto& [name, effect] : make_plan(asked, probe.result).record.effects)
-            report_.effects[name] = effect.on;
-        report_.calls = {probe.result.report.antialiasing, probe.result.report.radiosity,
-                         report_.effects.at("order_dependent"),
-                         std::max(image.width, image.height)};
-        for (const fs::path& file : files_of_scene(report_.identity))
-            if (mentions_size(file))
-                report_.notes.push_back(fmt::format(
-                    "'{}' asks for image_width or image_height: at the size of the truth it may "
-                    "be another scene",
-                    file.string()));
-        if (report_.calls.radiosity)
-            report_.notes.emplace_back(
-                "the truth's radiosity is the scene's own settings with a cache of its own from "
-                "many times as many pixels: not what other radiosity settings would give");
-    }
-
     fs::path make_scratch(const char* name) const {
         fs::path folder = scratch_.path() / name;
         fs::create_directories(folder);
@@ -104,9 +63,7 @@ class Sweeper {
     }
 
     void plan() {
-        TradeoffChoice choice = request_.choice;
-        choice.radiosity = radiosity_of_help(mpipov_help(request_.mpipov));
-        const TradeoffPlan plan = plan_tradeoff(choice, report_.calls);
+        const TradeoffPlan plan = plan_tradeoff(request_.choice, report_.calls);
         report_.left_out = plan.left_out;
         for (const TradeoffSetting& setting : plan.settings) {
             TradeoffRow row;
@@ -241,7 +198,7 @@ class Sweeper {
         fmt::print(stderr, "rendering the truth with {} samples a pixel\n", truth_samples(depth));
         report_.truth =
             render_truth(renderer_.serial(),
-                         {size_.width(), size_.height(), report_.region, depth, report_.averaging,
+                         {report_.width, report_.height, report_.region, depth, report_.averaging,
                           report_.calls.order_dependent, report_.cores},
                          scratch_.path() / "truth", make_images_folder());
         fmt::print(stderr, "its own error is {:.3g} levels of 255 ({:.1f} s)\n",
@@ -284,7 +241,6 @@ class Sweeper {
     ResultFile file_;
     const ScratchFolder scratch_{"tradeoff"};
     TradeoffRenderer renderer_;
-    Rect size_;               // of the whole image
     Exit failed_ = Exit::ok;  // of the first setting that failed
 };
 

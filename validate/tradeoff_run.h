@@ -14,7 +14,7 @@ namespace mpipov {
 struct TradeoffRequest {
     std::vector<std::string> arguments;  // scene and POV-Ray's own
     std::filesystem::path folder;        // for tradeoff.json and the images
-    TradeoffChoice choice;               // but for `radiosity`, which mpipov is asked for
+    TradeoffChoice choice;
     int repeat = 3;
     Averaging averaging = Averaging::linear;
     int most_samples = 13448;           // of a pixel of the truth

@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
-#include <set>
 
 namespace mpipov {
 namespace {
@@ -122,20 +120,27 @@ class Planner {
 
     void radiosity() {
         if (!makes_sense(Sweep::radiosity, scene_.radiosity, "the scene has no radiosity")) return;
-        if (!makes_sense(Sweep::radiosity, !choice_.radiosity.empty(),
-                         "this mpipov has no option --radiosity: each section makes its own"))
-            return;
         base_serial();
-        for (const std::string& way : choice_.radiosity) {
-            std::string short_name = way;
-            std::replace(short_name.begin(), short_name.end(), ':', '-');
-            in_sections(Sweep::radiosity, fmt::format("radiosity-{}", short_name),
-                        fmt::format("radiosity {}, {} sections", way, middle(choice_.sections)),
-                        choice_.ranks,
-                        {"--slots", "1", "--threads", "1", "--shape", "tiles", "--sections",
-                         fmt::format("{}", middle(choice_.sections)), "--radiosity", way},
-                        "serial");
+        for (const std::string& way : choice_.radiosity) shared(way);
+    }
+
+    void shared(const std::string& way) {
+        const std::size_t slash = std::min(way.find('/'), way.size());
+        const std::string how = way.substr(0, slash);
+        const std::string sections = fmt::format("{}", middle(choice_.sections));
+        std::string name = "radiosity-" + how, what = "radiosity " + how;
+        std::replace(name.begin(), name.end(), ':', '-');
+        std::vector<std::string> options{"--slots",     "1",     "--threads",  "1",
+                                         "--shape",     "tiles", "--sections", sections,
+                                         "--radiosity", how};
+        if (slash < way.size()) {
+            const std::string scale = way.substr(slash + 1);
+            name += "-scale-" + scale;
+            what += " at 1/" + scale + " of the size";
+            options.insert(options.end(), {"--radiosity-scale", scale});
         }
+        in_sections(Sweep::radiosity, name, fmt::format("{}, {} sections", what, sections),
+                    choice_.ranks, options, "serial");
     }
 
     void threads() {
@@ -177,29 +182,6 @@ std::string_view to_string(Sweep sweep) {
 
 TradeoffPlan plan_tradeoff(const TradeoffChoice& choice, const SceneCalls& scene) {
     return Planner(choice, scene).plan();
-}
-
-std::vector<std::string> radiosity_of_help(std::string_view help) {
-    const std::string text(help);
-    static const std::regex option(R"(--radiosity[ =]([A-Za-z0-9_|:\[\]./-]+))");
-    std::smatch found;
-    if (!std::regex_search(text, found, option)) return {};
-    std::vector<std::string> ways;
-    const std::string syntax = found[1];
-    for (std::size_t from = 0; from <= syntax.size();) {
-        const std::size_t to = std::min(syntax.find('|', from), syntax.size());
-        const std::string way = syntax.substr(from, to - from);
-        from = to + 1;
-        const std::string name = way.substr(0, way.find_first_of(":["));
-        if (name.empty() || name == "auto") continue;
-        if (way.find("PASSES") == std::string::npos) {
-            ways.push_back(name);
-            continue;
-        }
-        for (int passes = 1; passes <= 3; ++passes)
-            ways.push_back(fmt::format("{}:{}", name, passes));
-    }
-    return ways;
 }
 
 }  // namespace mpipov

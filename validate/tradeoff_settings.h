@@ -45,8 +45,11 @@ struct TradeoffChoice {
         halos{1, 2, 4, 8}, threads{1, 2};
     std::vector<double> thresholds{0.3, 0.1, 0.03, 0.01};
     int ranks = 2;  // that render sections
-    // What mpipov's --radiosity takes; empty: it has no such option.
-    std::vector<std::string> radiosity;
+    // Of mpipov's --radiosity, each with the scale of its samples behind a slash where that is
+    // not 1.
+    std::vector<std::string> radiosity{"independent", "shared:1",   "shared:2",
+                                       "shared:3",    "joined:1",   "joined:2",
+                                       "shared:1/2",  "shared:1/4", "joined:1/2"};
 };
 
 struct LeftOut {
@@ -63,10 +66,6 @@ struct TradeoffPlan {
 
 // Throws Failure(Exit::usage) where a sweep that was asked for by name makes no sense.
 TradeoffPlan plan_tradeoff(const TradeoffChoice& choice, const SceneCalls& scene);
-
-// What `--radiosity` takes by mpipov's own help text, each with the numbers of passes 1 to 3 where
-// it takes one; empty where there is no such option.
-std::vector<std::string> radiosity_of_help(std::string_view help);
 
 // The entry in the middle; of an even number the first of the two.
 template <class T>

@@ -88,7 +88,7 @@ TEST(TradeoffSettings, Method2KnowsNoSeams) {
 
 TEST(TradeoffSettings, OnlyWhatTheSceneCallsFor) {
     TradeoffChoice choice;
-    choice.radiosity = {"independent", "shared:1"};
+    choice.radiosity = {"independent", "shared:1/4"};
     SceneCalls plain;
     const TradeoffPlan without = plan_tradeoff(choice, plain);
     EXPECT_THAT(names_of(without, Sweep::radiosity), IsEmpty());
@@ -98,23 +98,19 @@ TEST(TradeoffSettings, OnlyWhatTheSceneCallsFor) {
     calls.radiosity = calls.order_dependent = true;
     const TradeoffPlan with = plan_tradeoff(choice, calls);
     EXPECT_THAT(names_of(with, Sweep::radiosity),
-                ElementsAre("radiosity-independent", "radiosity-shared-1"));
-    EXPECT_THAT(setting(with, "radiosity-shared-1").options, Contains("shared:1"));
+                ElementsAre("radiosity-independent", "radiosity-shared-1-scale-4"));
+    const TradeoffSetting& scaled = setting(with, "radiosity-shared-1-scale-4");
+    EXPECT_EQ(std::vector(scaled.options.end() - 4, scaled.options.end()),
+              (std::vector<std::string>{"--radiosity", "shared:1", "--radiosity-scale", "4"}));
+    EXPECT_THAT(setting(with, "radiosity-independent").options, Not(Contains("--radiosity-scale")));
     EXPECT_THAT(names_of(with, Sweep::threads), IsEmpty());
     EXPECT_THAT(with.left_out.back().why, HasSubstr("another each time"));
-
-    choice.radiosity.clear();
-    const TradeoffPlan older = plan_tradeoff(choice, calls);
-    EXPECT_THAT(names_of(older, Sweep::radiosity), IsEmpty());
-    EXPECT_THAT(older.left_out[0].why, HasSubstr("no option --radiosity"));
 }
 
 TEST(TradeoffSettings, NamesAreUnique) {
-    TradeoffChoice choice;
-    choice.radiosity = {"independent", "shared:1"};
     SceneCalls calls;
     calls.radiosity = true;
-    const TradeoffPlan plan = plan_tradeoff(choice, calls);
+    const TradeoffPlan plan = plan_tradeoff({}, calls);
     std::set<std::string> names;
     for (const TradeoffSetting& one : plan.settings)
         EXPECT_TRUE(names.insert(one.name).second) << one.name;
@@ -128,14 +124,6 @@ TEST(TradeoffSettings, NothingToSweepIsAnError) {
         EXPECT_EQ(failure.code(), Exit::usage);
         EXPECT_THAT(failure.what(), HasSubstr("the scene has no radiosity"));
     }
-}
-
-TEST(RadiosityOfHelp, ReadsTheSyntax) {
-    EXPECT_THAT(radiosity_of_help("--seams aligned|halo[:N]|plain\n"), IsEmpty());
-    EXPECT_THAT(radiosity_of_help("  --radiosity auto|independent|shared[:PASSES]  how\n"),
-                ElementsAre("independent", "shared:1", "shared:2", "shared:3"));
-    EXPECT_THAT(radiosity_of_help("  --radiosity independent|shared:PASSES|joined"),
-                ElementsAre("independent", "shared:1", "shared:2", "shared:3", "joined"));
 }
 
 TEST(Middle, OfAnEvenNumberTheFirstOfTheTwo) {
