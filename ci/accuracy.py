@@ -45,7 +45,7 @@ SCENES = {
     "isosurface": Scene("Isosurface", "scenes/effects/isosurface.pov",
                         ("+W160", "+H120", "+A0.1", "+AM1")),
 }
-REPEAT = 3
+REPEAT = 2
 TRUTH_SECONDS = 120
 
 

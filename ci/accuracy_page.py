@@ -70,13 +70,16 @@ def by_name(data, name):
     return next((row for row in data["rows"] if row["name"] == name), None)
 
 
-def against_serial(data, prefix, halo=False):
+def against_serial(data, prefix):
     """The smallest and the largest error against serial of the settings of that name."""
     found = [row["against_serial"]["rms"] for row in data["rows"]
              if row["name"].startswith(prefix) and row["against_serial"]]
     if not found:
         return ""
-    return "identical" if max(found) == 0 else f"{min(found):.3g}..{max(found):.3g}"
+    if max(found) == 0:
+        return "identical"
+    low, high = f"{min(found):.3g}", f"{max(found):.3g}"
+    return low if low == high else f"{low}..{high}"
 
 
 def overview(found):

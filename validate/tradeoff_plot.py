@@ -71,7 +71,7 @@ def draw(pyplot, panels, ink):
     """A figure of one or more panels side by side, for the same settings against other seconds."""
     figure, all_axes = pyplot.subplots(1, len(panels), figsize=(4.3 * len(panels), 4.0),
                                        sharey=True, squeeze=False)
-    figure.subplots_adjust(left=0.32 / len(panels), right=0.985, top=0.97, bottom=0.235,
+    figure.subplots_adjust(left=0.62 / (4.3 * len(panels)), right=0.985, top=0.97, bottom=0.235,
                            wspace=0.07)
     for axes, found in zip(all_axes[0], panels):
         panel(axes, found, ink)

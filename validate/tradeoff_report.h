@@ -36,6 +36,7 @@ struct TradeoffRow {
     std::vector<std::string> user_argv;  // what a user would run
     std::vector<double> wall, cpu;       // seconds, by repetition
     std::string failure;                 // empty: none. After one it is not tried again.
+    bool impossible = false;             // mpipov refused it: there is no such grid
     std::filesystem::path image;         // of the first repetition
     std::string pixel_sha1;              // of that
     bool varies = false;                 // a later repetition gave other pixels

@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
+#include <string_view>
 #include <thread>
 
 namespace mpipov {
@@ -112,7 +113,8 @@ class Sweeper {
                 // Without any serial render there is nothing to compare.
                 if (failure.code() == Exit::interrupted || !row.setting.mpipov) throw;
                 row.failure = failure.what();
-                if (failure.code() != Exit::usage && failed_ == Exit::ok) failed_ = failure.code();
+                row.impossible = failure.code() == Exit::usage && row.wall.empty();
+                if (!row.impossible && failed_ == Exit::ok) failed_ = failure.code();
                 fmt::print(stderr, "{}: {}\n", row.setting.name, row.failure);
             }
             save();
@@ -127,14 +129,15 @@ class Sweeper {
         return count;
     }
 
-    // mpipov refused them in the first repetition: there is no such grid.
+    // mpipov refused them in the first repetition: there is no such grid. Its own words say why.
     void leave_out_impossible() {
-        const auto refused = [](const TradeoffRow& row) {
-            return row.setting.mpipov && !row.failure.empty() && row.wall.empty();
-        };
+        constexpr std::string_view ours = "mpipov failed: mpipov: ";
         for (const TradeoffRow& row : report_.rows)
-            if (refused(row)) report_.left_out.push_back({row.setting.name, row.failure});
-        std::erase_if(report_.rows, refused);
+            if (row.impossible)
+                report_.left_out.push_back(
+                    {row.setting.name,
+                     row.failure.substr(row.failure.starts_with(ours) ? ours.size() : 0)});
+        std::erase_if(report_.rows, [](const TradeoffRow& row) { return row.impossible; });
     }
 
     void measure(TradeoffRow& row) {
