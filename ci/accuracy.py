@@ -46,7 +46,7 @@ SCENES = {
                         ("+W160", "+H120", "+A0.1", "+AM1")),
 }
 REPEAT = 2
-TRUTH_SECONDS = 120
+TRUTH_SECONDS = 300
 
 
 def measure_scene(name, options, programs):

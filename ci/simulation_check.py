@@ -46,11 +46,15 @@ def sleep_seconds(rect):
     return (300 + (column * 37 + row * 101) % 1201) / 1000
 
 
-def simulate(programs, folder, arguments):
+def simulation(programs, folder, arguments):
     out = folder / "simulation.json"
     done = run([programs.validate, "simulate", *arguments, "--json", out], folder)
     require_success(done)
-    return json.loads(out.read_text())["rows"][0]["wall_seconds"]
+    return json.loads(out.read_text())
+
+
+def simulate(programs, folder, arguments):
+    return simulation(programs, folder, arguments)["rows"][0]["wall_seconds"]
 
 
 def line(what, simulated, measured):

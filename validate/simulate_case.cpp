@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace mpipov {
 namespace {
@@ -62,7 +63,11 @@ double SimulateCase::launch_cpu() const {
 }
 
 double SimulateCase::serial_seconds() const {
-    return value(term::start) + value(term::end) + launch_cpu() + costs.cpu_seconds();
+    if (against) return *against;
+    double gathered = 0;
+    for (const std::vector<double>& wave : waves)
+        gathered += std::accumulate(wave.begin(), wave.end(), 0.0);
+    return value(term::start) + value(term::end) + launch_cpu() + gathered + costs.cpu_seconds();
 }
 
 void set_term(std::vector<SimulateTerm>& terms, const std::string& name, double value,
@@ -89,18 +94,19 @@ long long most_sections(const SimulateCase& what) {
     return max_sections(grid);
 }
 
-VirtualRun virtual_run(const SimulateCase& what, int ranks, const std::vector<Section>& sections,
-                       int in_flight) {
+namespace {
+
+// What sections of an image and of a wave have in common. `network` is without their bytes.
+VirtualRun run_of(const SimulateCase& what, int ranks, std::vector<double> section_cpu,
+                  int in_flight) {
     VirtualRun run;
     run.policy = what.policy;
     run.threads = what.threads;
     run.ranks = ranks_of(what, ranks, in_flight);
-    run.section_cpu.reserve(sections.size());
-    for (const Section& section : sections)
-        run.section_cpu.push_back(what.costs.cpu_seconds(section.keep));
-    if (!what.on(term::uneven) && !sections.empty()) {
+    run.section_cpu = std::move(section_cpu);
+    if (!what.on(term::uneven) && !run.section_cpu.empty()) {
         const double mean = std::accumulate(run.section_cpu.begin(), run.section_cpu.end(), 0.0) /
-                            static_cast<double>(sections.size());
+                            static_cast<double>(run.section_cpu.size());
         std::fill(run.section_cpu.begin(), run.section_cpu.end(), mean);
     }
     run.launch = {what.value(term::start),
@@ -114,20 +120,41 @@ VirtualRun virtual_run(const SimulateCase& what, int ranks, const std::vector<Se
     terms.answer_seconds = given(term::answer);
     terms.service_seconds = given(term::service);
     if (!what.dedicated) terms.rank0_cpu_seconds = given(term::rank0);
-    terms.before = given(term::before);
-    terms.after = given(term::after);
-    terms.copies = what.on(term::copies);
     if (what.on(term::latency) || what.on(term::bandwidth)) {
         VirtualNetwork network;
         network.latency = what.value(term::latency);
-        if (what.on(term::bandwidth)) {
-            network.bytes_per_second = what.value(term::bandwidth);
-            for (const Section& section : sections)
-                network.section_bytes.push_back(static_cast<double>(section.render.area()) *
-                                                what.bytes_per_pixel);
-        }
+        if (what.on(term::bandwidth)) network.bytes_per_second = what.value(term::bandwidth);
         terms.network = std::move(network);
     }
+    return run;
+}
+
+}  // namespace
+
+double gathering_seconds(const SimulateCase& what, int ranks, int in_flight) {
+    if (!what.on(term::gathering)) return 0;
+    double sum = 0;
+    for (const std::vector<double>& wave : what.waves)
+        sum += run_virtually(run_of(what, ranks, wave, in_flight)).wall_seconds;
+    return sum;
+}
+
+VirtualRun virtual_run(const SimulateCase& what, int ranks, const std::vector<Section>& sections,
+                       int in_flight) {
+    std::vector<double> section_cpu;
+    section_cpu.reserve(sections.size());
+    for (const Section& section : sections)
+        section_cpu.push_back(what.costs.cpu_seconds(section.keep));
+    VirtualRun run = run_of(what, ranks, std::move(section_cpu), in_flight);
+    VirtualTerms& terms = run.terms;
+    const double gathering = gathering_seconds(what, ranks, in_flight);
+    if (what.on(term::before) || gathering > 0) terms.before = what.value(term::before) + gathering;
+    if (what.on(term::after)) terms.after = what.value(term::after);
+    terms.copies = what.on(term::copies);
+    if (terms.network && what.on(term::bandwidth))
+        for (const Section& section : sections)
+            terms.network->section_bytes.push_back(static_cast<double>(section.render.area()) *
+                                                   what.bytes_per_pixel);
     return run;
 }
 

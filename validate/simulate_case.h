@@ -19,8 +19,8 @@ inline constexpr const char *start = "start-up", *end = "end", *bare = "bare lau
                             *parse = "parse", *photons = "photons", *radiosity = "pretrace",
                             *frame = "frame", *answer = "answer", *service = "coordinator",
                             *rank0 = "rank 0", *latency = "latency", *bandwidth = "bandwidth",
-                            *before = "before", *after = "after", *copies = "copies",
-                            *uneven = "uneven sections";
+                            *before = "before", *after = "after", *gathering = "gathering",
+                            *copies = "copies", *uneven = "uneven sections";
 }  // namespace term
 
 struct SimulateTerm {
@@ -45,6 +45,9 @@ struct SimulateCase {
     int ranks_per_host = 0;            // 0: all on one host
     bool dedicated = false;
     double bytes_per_pixel = 3;
+    // CPU seconds of tracing of the sections of each wave that gathers radiosity samples.
+    std::vector<std::vector<double>> waves;
+    std::optional<double> against;  // what the speed-up is against; empty: what the terms say
     std::vector<SimulateTerm> terms;
 
     // 0 where it is off.
@@ -52,8 +55,10 @@ struct SimulateCase {
     bool on(const std::string& name) const;
     SimulateCase without(const std::string& name) const;
 
-    double launch_cpu() const;      // of every launch, besides tracing
-    double serial_seconds() const;  // POV-Ray alone, one thread, on a core of speed 1
+    double launch_cpu() const;  // of every launch, besides tracing
+    // POV-Ray alone, one thread, on a core of speed 1. With waves and without `against` it traces
+    // all that they trace, which is more than it would.
+    double serial_seconds() const;
 };
 
 // The terms of any run: measured values that need no scene. Sources: docs/simulation.md.
@@ -70,6 +75,9 @@ SimulateCase case_of_run(const RunRecord& record);
 // So many sections of the image. Throws std::invalid_argument where no grid has so many.
 std::vector<Section> cut(const SimulateCase& what, int sections);
 long long most_sections(const SimulateCase& what);
+
+// How long `ranks` ranks take for the waves.
+double gathering_seconds(const SimulateCase& what, int ranks, int in_flight);
 
 // The run of `ranks` ranks with such sections and launches in flight.
 VirtualRun virtual_run(const SimulateCase& what, int ranks, const std::vector<Section>& sections,

@@ -40,6 +40,12 @@ void add_costs(CLI::App& app, SimulateOptions& options) {
         ->check(above_nothing())
         ->type_name("S")
         ->group(group);
+    app.add_option("--against", options.against,
+                   "seconds of the serial render that the speed-up is against [what the costs and "
+                   "terms say; with gathered radiosity that is too much]")
+        ->check(above_nothing())
+        ->type_name("S")
+        ->group(group);
     app.add_option("--size", options.size, "of the image, with --serial-seconds")
         ->type_name("WxH")
         ->group(group);

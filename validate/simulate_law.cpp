@@ -51,6 +51,12 @@ std::string law_of(const SimulateCase& what, const SimulateRow& row) {
             "all cores wait {} the sections (Amdahl): {}. Lifted by longer work "
             "for each core.",
             name, at_most(what, row, value));
+    if (name == term::gathering)
+        return fmt::format(
+            "radiosity samples are gathered before the image, {:.4g} CPU s in {} waves, each of "
+            "which waits for the last of its sections. Lifted by --radiosity independent, whose "
+            "seams show, or by more sections.",
+            value, what.waves.size());
     if (name == term::service)
         return fmt::format(
             "rank 0 handles at most {:.4g} sections a second and is asked for "

@@ -157,6 +157,7 @@ SimulateCase simulate_case(const SimulateOptions& options) {
     take_grid(what, options);
     take_terms(what, options);
     if (options.serial_seconds) trace_for(what, options);
+    what.against = options.against;
     return what;
 }
 

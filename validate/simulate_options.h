@@ -14,7 +14,7 @@ namespace mpipov {
 
 struct SimulateOptions {
     std::string run, costs, size, map = "uniform";
-    std::optional<double> serial_seconds;
+    std::optional<double> serial_seconds, against;
 
     std::string ranks, schedule = "dynamic", shape = "auto", seams, speeds = "1";
     std::optional<int> sections, in_flight, threads;

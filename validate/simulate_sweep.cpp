@@ -138,7 +138,9 @@ SimulateRow simulate(const SimulateCase& what, int ranks) {
     const auto efficiency = [&](double wall) { return wall > 0 ? serial / wall / row.power : 0; };
     row.speedup = row.wall_seconds > 0 ? serial / row.wall_seconds : 0;
     row.efficiency = efficiency(row.wall_seconds);
-    const double rendering = row.wall_seconds - what.value(term::before) - what.value(term::after);
+    const double rendering = row.wall_seconds - what.value(term::before) -
+                             gathering_seconds(what, ranks, row.in_flight) -
+                             what.value(term::after);
     row.handled_by_second = rendering > 0 ? row.launches / rendering : 0;
 
     for (const SimulateTerm& one : what.terms) {

@@ -155,6 +155,60 @@ TEST(SimulateCase, ALaunchCostsNoMoreThanTheCheapestSection) {
     EXPECT_NEAR(what.costs.cpu_seconds(), 5.75, 1e-9);
 }
 
+// 2 sections in 2 waves of one each, then the 2 of the image: 4 launches of 1 s, of which pretrace
+// takes 0.25 s where there is no cache yet.
+RunRecord gathered_run() {
+    RunRecord record = one_run();
+    PlanRecord& plan = record.plan;
+    plan.radiosity = {Sharing::joined, 1, 1};
+    plan.effects["radiosity"] = {true, "Radiosity Time is given", 0.25};
+    plan.effects["order_dependent"].on = true;
+    plan.predicted = {0, 2 * 10 + 4 * 1.0 - 2 * 0.25};
+    for (int i = 0; i < 2; ++i) {
+        SectionRecord one = record.sections[static_cast<std::size_t>(i)];
+        one.section.id = 0;
+        one.start = 0.5 + i * 0.5;
+        one.cpu_seconds = 3 + i;
+        record.waves.push_back({200, 100, 10, {one}});
+    }
+    return record;
+}
+
+TEST(SimulateCase, WavesAreTermsOfTheirOwn) {
+    const SimulateCase what = case_of_run(gathered_run());
+    EXPECT_NEAR(what.launch_cpu(), 0.75, 1e-9);
+    EXPECT_NEAR(what.costs.cpu_seconds(), 5 + 6 - 2 * 0.75, 1e-9);
+    EXPECT_FALSE(what.on(term::radiosity));
+    ASSERT_EQ(what.waves.size(), 2U);
+    EXPECT_NEAR(what.waves[0].at(0), 2.25, 1e-9);
+    EXPECT_NEAR(what.value(term::gathering), 2.25 + 3.25, 1e-9);
+    EXPECT_NEAR(what.value(term::before), 0.5, 1e-9);
+}
+
+TEST(SimulateSweep, WavesComeOneAfterTheOther) {
+    SimulateCase what = case_of_run(gathered_run());
+    for (const SimulateTerm& one : case_of_run(gathered_run()).terms)
+        if (one.name != term::gathering && one.name != term::uneven)
+            switch_off(what.terms, one.name, "not in this test");
+    // One section each: a second rank has nothing to do in them.
+    EXPECT_NEAR(gathering_seconds(what, 1, 1), 5.5, 1e-9);
+    EXPECT_NEAR(gathering_seconds(what, 2, 1), 5.5, 1e-9);
+    const double image = 5 + 6 - 1.5, longest = 6 - 0.75;
+    EXPECT_NEAR(simulate(what, 1).wall_seconds, 5.5 + image, 1e-9);
+    const SimulateRow two = simulate(what, 2);
+    EXPECT_NEAR(two.wall_seconds, 5.5 + longest, 1e-9);
+    EXPECT_EQ(two.bound_by, term::gathering);
+    EXPECT_FALSE(law_of(what, two).empty());
+    what.against = 7.0;
+    EXPECT_NEAR(simulate(what, 2).speedup, 7.0 / two.wall_seconds, 1e-9);
+}
+
+TEST(SimulateCase, WavesOfAnEarlierRunAreMissing) {
+    RunRecord record = gathered_run();
+    record.waves.clear();
+    EXPECT_THROW(case_of_run(record), std::invalid_argument);
+}
+
 TEST(SimulateCase, APinnedGridStays) {
     RunRecord record = one_run();
     record.plan.effects["order_dependent"].on = true;

@@ -40,8 +40,19 @@ std::string why(const PlanRecord& plan, const std::string& effect) {
 // section took as a whole.
 double per_launch_cpu(const RunRecord& record) {
     const PlanRecord& plan = record.plan;
+    // As gathering_cost() adds them up (cost_model.h).
+    double launches = std::max(1, plan.sections), pixels = 0;
+    for (const WaveRecord& wave : record.waves)
+        for (const SectionRecord& section : wave.sections) {
+            launches += 1;
+            pixels += static_cast<double>(section.section.render.area());
+        }
+    const double traces = 1 + pixels / static_cast<double>(std::max(1LL, plan.region.area()));
+    const double saved = record.waves.empty() ? 0 : cpu_of(plan, "radiosity");
     const double planned =
-        (plan.predicted.cpu_seconds - cpu_of(plan, "render")) / std::max(1, plan.sections);
+        (plan.predicted.cpu_seconds - traces * cpu_of(plan, "render") + plan.sections * saved) /
+            launches -
+        saved;
     const auto cheapest = std::min_element(record.sections.begin(), record.sections.end(),
                                            [](const SectionRecord& a, const SectionRecord& b) {
                                                return a.cpu_seconds < b.cpu_seconds;
@@ -68,7 +79,9 @@ void take_start_up(const RunRecord& record, std::vector<SimulateTerm>& terms) {
 void take_launch(const RunRecord& record, std::vector<SimulateTerm>& terms) {
     const PlanRecord& plan = record.plan;
     const double all = per_launch_cpu(record);
-    double photons = cpu_of(plan, "photons"), radiosity = cpu_of(plan, "radiosity");
+    const bool reads_cache = !record.waves.empty();
+    const double photons = cpu_of(plan, "photons"),
+                 radiosity = reads_cache ? 0 : cpu_of(plan, "radiosity");
     double frame = frame_pixel_cpu_seconds * plan.image.width * plan.image.height,
            bare = bare_launch_cpu_seconds;
     const double known = photons + radiosity + frame + bare;
@@ -81,7 +94,9 @@ void take_launch(const RunRecord& record, std::vector<SimulateTerm>& terms) {
     set_term(terms, term::parse, std::max(0.0, all - known), source + ": the rest of a launch");
     for (const auto& [name, effect, cpu] :
          {std::tuple{term::photons, "photons", photons}, {term::radiosity, "radiosity", radiosity}})
-        if (is_on(plan, effect))
+        if (reads_cache && name == term::radiosity)
+            switch_off(terms, name, "the sections read a cache, see gathering");
+        else if (is_on(plan, effect))
             set_term(terms, name, cpu * part, source);
         else
             switch_off(terms, name, why(plan, effect));
@@ -89,7 +104,9 @@ void take_launch(const RunRecord& record, std::vector<SimulateTerm>& terms) {
 
 void take_ends(const RunRecord& record, std::vector<SimulateTerm>& terms) {
     double first = never, last = 0;
-    for (const std::vector<SectionRecord>* all : {&record.sections, &record.repairs})
+    std::vector<const std::vector<SectionRecord>*> parts{&record.sections, &record.repairs};
+    for (const WaveRecord& wave : record.waves) parts.push_back(&wave.sections);
+    for (const std::vector<SectionRecord>* all : parts)
         for (const SectionRecord& section : *all) {
             first = std::min(first, section.start);
             last = std::max(last, section.end);
@@ -97,6 +114,22 @@ void take_ends(const RunRecord& record, std::vector<SimulateTerm>& terms) {
     set_term(terms, term::before, first, "the record: start of the first section");
     set_term(terms, term::after, std::max(0.0, record.totals.wall_seconds - last),
              "the record: after the last section");
+}
+
+// Tracing in the waves is what their sections took above a launch, as it is for the image's.
+void take_waves(const RunRecord& record, SimulateCase& what) {
+    const double launch = per_launch_cpu(record);
+    double sum = 0;
+    for (const WaveRecord& wave : record.waves) {
+        std::vector<double>& cpu = what.waves.emplace_back();
+        for (const SectionRecord& section : wave.sections) {
+            cpu.push_back(std::max(0.0, section.cpu_seconds - launch));
+            sum += cpu.back();
+        }
+    }
+    if (!record.waves.empty())
+        set_term(what.terms, term::gathering, sum,
+                 fmt::format("the record: {} waves", record.waves.size()));
 }
 
 }  // namespace
@@ -121,6 +154,7 @@ std::vector<SimulateTerm> default_terms(int width, int height) {
         {term::before, before_seconds, "s before the first section", true, doc},
         {term::after, after_seconds + after_pixel_seconds * pixels, "s after the last section",
          true, doc},
+        {term::gathering, 0, "CPU s before the sections, in waves of sections", false, no_scene},
         {term::copies, 0, "by idle ranks, of the last sections", true, "Schedule::next_copy"},
         {term::uneven, 0, "what tracing costs where", true, "the cost map"},
     };
@@ -129,7 +163,9 @@ std::vector<SimulateTerm> default_terms(int width, int height) {
 SimulateCase case_of_run(const RunRecord& record) {
     if (!record.complete) throw std::invalid_argument("the run was not finished");
     if (record.sections.empty()) throw std::invalid_argument("the record has no sections");
-    if (std::ranges::any_of(record.sections, &SectionRecord::resumed))
+    const bool kept_waves =
+        record.plan.radiosity.how != Sharing::independent && record.waves.empty();
+    if (kept_waves || std::ranges::any_of(record.sections, &SectionRecord::resumed))
         throw std::invalid_argument("the run went on from another: its times are not of one run");
     const PlanRecord& plan = record.plan;
     SimulateCase what;
@@ -147,6 +183,7 @@ SimulateCase case_of_run(const RunRecord& record) {
     take_start_up(record, what.terms);
     take_launch(record, what.terms);
     take_ends(record, what.terms);
+    take_waves(record, what);
     if (is_on(plan, "order_dependent")) what.sections = plan.sections;
     return what;
 }

@@ -71,19 +71,16 @@ CostModel with_cache(CostModel cost) {
     return cost;
 }
 
-Predicted gathering_cost(const CostModel& cost, const RadiositySharing& sharing,
-                         const std::vector<int>& waves, int lanes, int threads) {
+Predicted gathering_cost(const CostModel& cost, const std::vector<WaveShare>& waves, int lanes,
+                         int threads) {
     Predicted sum;
-    if (waves.empty()) return sum;
-    CostModel pass = cost;
-    pass.early_threads = 0;
-    pass.render /= static_cast<double>(sharing.scale) * sharing.scale;
-    const double of_a_pass = static_cast<double>(waves.size()) / sharing.passes;
-    for (const int sections : waves) {
-        CostModel wave = pass;
-        wave.render /= of_a_pass;
-        sum.wall_seconds += wave.wall_seconds(sections, std::min(lanes, sections), threads);
-        sum.cpu_seconds += wave.cpu_seconds(sections);
+    for (const WaveShare& wave : waves) {
+        CostModel part = cost;
+        part.early_threads = 0;
+        part.render *= wave.of_render;
+        sum.wall_seconds +=
+            part.wall_seconds(wave.sections, std::min(lanes, wave.sections), threads);
+        sum.cpu_seconds += part.cpu_seconds(wave.sections);
     }
     return sum;
 }

@@ -23,9 +23,13 @@ struct CostModel {
 };
 // What is left to launches that read a radiosity cache.
 CostModel with_cache(CostModel cost);
-// Of the waves that make the cache, of so many sections each.
-Predicted gathering_cost(const CostModel& cost, const RadiositySharing& sharing,
-                         const std::vector<int>& waves, int lanes, int threads);
+// A wave that makes the cache: of so many sections, which trace so much of the region.
+struct WaveShare {
+    int sections = 1;
+    double of_render = 1;
+};
+Predicted gathering_cost(const CostModel& cost, const std::vector<WaveShare>& waves, int lanes,
+                         int threads);
 CostModel make_cost_model(const ProbeResult& probe);
 
 // One of POV-Ray's statistics, 0 where it did not print it.

@@ -49,9 +49,9 @@ constexpr std::array rows{
         "auto", set_seams},
     Row{cutting, "radiosity", "HOW",
         "how sections come by radiosity samples; independent: each takes its own; shared[:PASSES]: "
-        "one launch renders everything first, and all read its samples; joined[:PASSES]: sections "
-        "gather samples side by side, neighbours one after the other; auto: joined where the scene "
-        "has radiosity",
+        "one launch renders everything first, PASSES times, and all read its samples; "
+        "joined[:PASSES]: sections gather samples side by side, coarse passes first, in the last "
+        "one neighbours one after the other; auto: joined where the scene has radiosity",
         "auto", set_radiosity},
     Row{cutting, "radiosity-scale", "N",
         "samples are gathered at 1/N of the image's width and height", "1",

@@ -43,8 +43,28 @@ Rect scaled(const Rect& rect, const ImageSize& full, const ImageSize& small) {
     return out;
 }
 
+// POV-Ray refuses an image of one pixel's width where the region ends at 1 (povray_command.h).
+ImageSize scaled(const ImageSize& image, long long scale) {
+    return {static_cast<int>(std::max(2LL, image.width / scale)),
+            static_cast<int>(std::max(2LL, image.height / scale))};
+}
+
 Section gathering(int id, const Rect& rect) {
     return {id, rect, rect};
+}
+
+// By the number of its wave for each section.
+std::vector<GatherWave> waves_of(const std::vector<Section>& sections,
+                                 const std::vector<int>& wave_of, const ImageSize& image,
+                                 const ImageSize& size) {
+    std::vector<GatherWave> waves(static_cast<std::size_t>(*std::ranges::max_element(wave_of)) + 1,
+                                  {size, {}});
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        std::vector<Section>& wave = waves[static_cast<std::size_t>(wave_of[i])].sections;
+        wave.push_back(
+            gathering(static_cast<int>(wave.size()), scaled(sections[i].keep, image, size)));
+    }
+    return waves;
 }
 
 }  // namespace
@@ -70,24 +90,23 @@ std::string describe(const RadiositySharing& sharing) {
 std::vector<GatherWave> gather_waves(const RadiositySharing& sharing, const ImageSize& image,
                                      const Partition& partition) {
     if (sharing.how == Sharing::independent) return {};
-    // POV-Ray refuses an image of one pixel's width where the region ends at 1 (povray_command.h).
-    const ImageSize size{std::max(2, image.width / sharing.scale),
-                         std::max(2, image.height / sharing.scale)};
-    std::vector<GatherWave> pass;
-    if (sharing.how == Sharing::shared) {
-        pass.push_back({size, {gathering(0, scaled(partition.request.region, image, size))}});
-    } else {
-        const std::vector<int> wave_of = colours(partition.sections);
-        const int waves = 1 + *std::ranges::max_element(wave_of);
-        for (int wave = 0; wave < waves; ++wave) pass.push_back({size, {}});
-        for (std::size_t i = 0; i < partition.sections.size(); ++i) {
-            GatherWave& wave = pass[static_cast<std::size_t>(wave_of[i])];
-            wave.sections.push_back(gathering(static_cast<int>(wave.sections.size()),
-                                              scaled(partition.sections[i].keep, image, size)));
-        }
-    }
     std::vector<GatherWave> waves;
-    for (int i = 0; i < sharing.passes; ++i) waves.insert(waves.end(), pass.begin(), pass.end());
+    if (sharing.how == Sharing::shared) {
+        const ImageSize size = scaled(image, sharing.scale);
+        const Section all = gathering(0, scaled(partition.request.region, image, size));
+        waves.assign(static_cast<std::size_t>(sharing.passes), {size, {all}});
+        return waves;
+    }
+    const std::vector<int> last = colours(partition.sections);
+    const std::vector<int> together(partition.sections.size(), 0);
+    for (int pass = 1; pass <= sharing.passes; ++pass) {
+        // No further than to a few pixels, whatever is asked for.
+        const int halvings = std::min(sharing.passes - pass, 20);
+        const ImageSize size = scaled(image, static_cast<long long>(sharing.scale) << halvings);
+        const auto pass_waves =
+            waves_of(partition.sections, pass < sharing.passes ? together : last, image, size);
+        waves.insert(waves.end(), pass_waves.begin(), pass_waves.end());
+    }
     return waves;
 }
 

@@ -23,18 +23,20 @@ std::string_view to_string(Sharing sharing);
 
 struct RadiositySharing {
     Sharing how = Sharing::independent;
-    int passes = 1;  // over the whole region; each reads what the earlier ones took
-    int scale = 1;   // a pass is rendered at 1/scale of the image's width and height
+    // Over the whole region; each reads what the earlier ones took. Those of `joined` go from
+    // coarse to fine, as POV-Ray's own pretrace does: each has twice the width and height of the
+    // last.
+    int passes = 1;
+    int scale = 1;  // the last pass is rendered at 1/scale of the image's width and height
     bool operator==(const RadiositySharing&) const = default;
 };
 
 // "independent", "shared:2", "joined:1 at 1/2"
 std::string describe(const RadiositySharing& sharing);
 
-// Sections that gather samples side by side and read what was joined before; a pass of `joined` has
-// several. No two neighbours are in one wave: of two that meet, the later one reads what the
-// earlier one took at their seam, as it is within one launch. So both sides of the seam are lit
-// by the same samples.
+// Sections that gather samples side by side and read what was joined before. The last pass of
+// `joined` has several: no two neighbours are in one wave, so of two that meet the later one reads
+// what the earlier one took at their seam, as it is within one launch.
 struct GatherWave {
     ImageSize image;                // of the render, pixels
     std::vector<Section> sections;  // ids count from 0; render is keep, in pixels of `image`

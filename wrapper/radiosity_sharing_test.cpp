@@ -51,11 +51,22 @@ TEST(RadiositySharing, OneSectionIsOneWave) {
               1U);
 }
 
-TEST(RadiositySharing, APassIsTheSameAgain) {
-    const auto waves = gather_waves({Sharing::joined, 2, 1}, {320, 224}, grid(Shape::columns, 4));
+TEST(RadiositySharing, PassesGoFromCoarseToFineAndOnlyTheLastSparesNeighbours) {
+    const auto waves = gather_waves({Sharing::joined, 3, 2}, {320, 224}, grid(Shape::columns, 5));
     ASSERT_EQ(waves.size(), 4U);
-    EXPECT_EQ(waves[0].sections, waves[2].sections);
-    EXPECT_EQ(waves[1].sections, waves[3].sections);
+    const std::vector<int> widths{40, 80, 160, 160};
+    const std::vector<std::size_t> sections{5, 5, 3, 2};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(waves[i].image.width, widths[i]);
+        EXPECT_EQ(waves[i].sections.size(), sections[i]);
+    }
+}
+
+TEST(RadiositySharing, ManyPassesEndAtAFewPixels) {
+    const auto waves = gather_waves({Sharing::joined, 100, 1}, {320, 224}, grid(Shape::columns, 5));
+    EXPECT_EQ(waves.size(), 101U);
+    EXPECT_EQ(waves[0].image.width, 2);
+    EXPECT_EQ(waves[0].image.height, 2);
 }
 
 TEST(RadiositySharing, HalosAreNotGathered) {

@@ -225,10 +225,16 @@ RadiositySharing choose_sharing(const PlanRequest& request, const ProbeResult& p
     return {how, request.radiosity_passes, request.radiosity_scale};
 }
 
-std::vector<int> sizes_of(const std::vector<GatherWave>& waves) {
-    std::vector<int> sizes;
-    for (const GatherWave& wave : waves) sizes.push_back(static_cast<int>(wave.sections.size()));
-    return sizes;
+std::vector<WaveShare> shares_of(const std::vector<GatherWave>& waves, const Rect& region) {
+    std::vector<WaveShare> shares;
+    for (const GatherWave& wave : waves) {
+        double pixels = 0;
+        for (const Section& section : wave.sections)
+            pixels += static_cast<double>(section.render.area());
+        shares.push_back({static_cast<int>(wave.sections.size()),
+                          std::min(1.0, pixels / static_cast<double>(region.area()))});
+    }
+    return shares;
 }
 
 }  // namespace
@@ -300,7 +306,7 @@ Plan make_plan(const PlanRequest& request, const ProbeResult& given) {
     plan.takes_early = request.early_threads > 0 && choice.sections == 1 && plan.waves.empty() &&
                        choice.threads == request.early_threads && grid.seams != Seams::halo;
     const Predicted gathering =
-        gathering_cost(cost, record.radiosity, sizes_of(plan.waves), all_lanes, choice.threads);
+        gathering_cost(cost, shares_of(plan.waves, record.region), all_lanes, choice.threads);
     if (!plan.waves.empty()) cost = with_cache(cost);
     record.predicted = {
         gathering.wall_seconds + cost.wall_seconds(choice.sections, all_lanes, choice.threads),

@@ -1,0 +1,158 @@
+#!/usr/bin/python3
+"""What sharing radiosity samples between sections does to the seams and what it costs.
+
+    radiosity.py measure    takes up an interrupted run; about half an hour on 2 cores
+    radiosity.py page       docs/radiosity.md's tables from the records
+
+Verdicts are those of `mpipov-validate seams`. Speed-up with 2 ranks is measured in turns with the
+serial render; with 8 and 64 it is simulated from one of those runs (docs/simulation.md).
+
+Exit codes: 0 ok, 1 the default's seams show, 2 usage, 77 nothing to measure.
+"""
+
+import json
+import statistics
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from program_runs import (ROOT, Skip, argument_parser, fresh_folder, programs_of, report,
+                          require_success, run)
+from radiosity_page import page, seams_show
+from seams_survey import EXAMPLES
+from simulation_check import simulation
+
+SHARING = ("independent", "shared", "shared:2", "joined", "joined:3")
+TIMED = ("independent", "shared", "joined")
+GRIDS = (("columns", 4), ("tiles", 16))
+SIMULATED_RANKS = (2, 8, 64)
+REPEAT = 3
+MARK = "<!-- what follows is written by ci/radiosity.py -->"
+
+
+@dataclass(frozen=True)
+class Scene:
+    file: Path
+    judged: tuple = ("+W320", "+H240", "-A")
+    timed: tuple = ()  # empty: it is not
+
+
+SCENES = {
+    "radiosity/cornell": Scene(EXAMPLES / "radiosity" / "cornell.pov",
+                               timed=("+W640", "+H480", "+A0.3")),
+    "effects/radiosity": Scene(ROOT / "scenes" / "effects" / "radiosity.pov",
+                               timed=("+W640", "+H480", "+A0.3")),
+    "radiosity/radiosity2": Scene(EXAMPLES / "radiosity" / "radiosity2.pov"),
+    "radiosity/radiosity_36": Scene(EXAMPLES / "radiosity" / "radiosity_36.pov",
+                                    judged=("+W224", "+H144", "-A")),
+    "radiosity/rad_def_test_37": Scene(EXAMPLES / "radiosity" / "rad_def_test_37.pov",
+                                       judged=("+W224", "+H144", "-A")),
+}
+
+
+def write(file, found):
+    file.write_text(json.dumps(found, indent=2) + "\n")
+
+
+def judge(scene, folder, programs):
+    """One seams.json for each grid."""
+    common = [scene.file, f"+L{scene.file.parent}", *scene.judged, "-D"]
+    serial = folder / "serial"
+    if not (serial / "noise.json").exists():
+        require_success(run([programs.validate, "noise", *common, "--out", serial, "--povray",
+                             programs.povray], fresh_folder(folder), seconds=3600))
+    found = []
+    for shape, sections in GRIDS:
+        out = folder / f"{shape}{sections}"
+        done = run([programs.validate, "seams", *common, "--out", out, "--serial", serial,
+                    "--ranks", 2, "--seams", "plain", "--shape", shape, "--sections", sections,
+                    "--radiosity", ",".join(SHARING), "--povray", programs.povray,
+                    "--mpiexec", programs.mpiexec], folder, seconds=3600)
+        if done.code not in (0, 1):
+            require_success(done)
+        judged = json.loads((out / "seams.json").read_text())
+        for case in judged["cases"]:
+            case["run"] = json.loads((out / case["run"]).read_text())
+        found.append({"shape": shape, "sections": sections, "judged": judged})
+    return found
+
+
+def timed_once(scene, sharing, folder, programs):
+    """Wall seconds, and the record where mpipov rendered."""
+    common = [scene.file, f"+L{scene.file.parent}", *scene.timed, "-D"]
+    begin = time.monotonic()
+    if sharing == "serial":
+        require_success(programs.serial([*common, "+WT1", "+Oserial.png"], folder))
+        return time.monotonic() - begin, None
+    require_success(programs.mpi(2, [*common, "--slots", 1, "--radiosity", sharing, "--record",
+                                     "run.json", "--progress", "none", "+Oimage.png"], folder))
+    return time.monotonic() - begin, json.loads((folder / "run.json").read_text())
+
+
+def measure_speed(scene, folder, programs):
+    fresh_folder(folder)
+    seconds = {sharing: [] for sharing in ("serial", *TIMED)}
+    for turn in range(REPEAT):
+        for sharing in sorted(seconds, reverse=turn % 2 == 1):
+            taken, record = timed_once(scene, sharing, folder, programs)
+            seconds[sharing].append(taken)
+            if record:
+                write(folder / f"{sharing}.json", record)
+            print(f"{scene.file.name} {sharing}: {taken:.2f} s", flush=True)
+    serial = statistics.median(seconds["serial"])
+    simulated = {}
+    for sharing in TIMED:
+        said = simulation(programs, folder, ["--run", folder / f"{sharing}.json", "--ranks",
+                                           ",".join(map(str, SIMULATED_RANKS)), "--against",
+                                           f"{serial:.3f}"])
+        simulated[sharing] = said["rows"]
+    sections = json.loads((folder / "joined.json").read_text())["plan"]["grid"]["sections"]
+    return {"arguments": scene.timed, "seconds": seconds, "simulated": simulated,
+            "sections": sections}
+
+
+def measure_command(options):
+    programs = programs_of(options)
+    for name, scene in SCENES.items():
+        if not scene.file.exists():
+            raise Skip(f"there is no '{scene.file}': install povray-examples (see ci/install-deps)")
+        folder = options.work / name.replace("/", "_")
+        for part, of, needed in (("grids", judge, True),
+                                 ("speed", measure_speed, bool(scene.timed))):
+            file = folder.with_name(f"{folder.name}.{part}.json")
+            if needed and not file.exists():
+                file.parent.mkdir(parents=True, exist_ok=True)
+                write(file, of(scene, folder / part, programs))
+    return 0
+
+
+def page_command(options):
+    found = {}
+    for name in SCENES:
+        base = options.work / name.replace("/", "_")
+        parts = {part: base.with_name(f"{base.name}.{part}.json") for part in ("grids", "speed")}
+        if parts["grids"].exists():
+            found[name] = {part: json.loads(file.read_text())
+                           for part, file in parts.items() if file.exists()}
+    if not found:
+        raise Skip(f"nothing in '{options.work}': radiosity.py measure makes it")
+    written_by_hand, _, _ = options.page.read_text().partition(MARK)
+    options.page.write_text(f"{written_by_hand}{MARK}\n\n{page(found, SIMULATED_RANKS)}")
+    print(options.page)
+    return 1 if seams_show(found, "joined") else 0
+
+
+def main():
+    parser = argument_parser(__doc__)
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    commands.add_parser("measure").set_defaults(command=measure_command)
+    written = commands.add_parser("page")
+    written.add_argument("--page", type=Path, default=ROOT / "docs" / "radiosity.md", metavar="FILE")
+    written.set_defaults(command=page_command)
+    options = parser.parse_args()
+    options.work = options.work.resolve() / "radiosity"
+    return options.command(options)
+
+
+if __name__ == "__main__":
+    report(main)
