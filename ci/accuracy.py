@@ -39,7 +39,7 @@ SCENES = {
     "soft_shadows": Scene("Soft shadows", "scenes/effects/area_light.pov",
                           ("+W320", "+H240", "+A0.1", "+AM1")),
     "focal_blur": Scene("Focal blur", "scenes/effects/focal_blur.pov",
-                        ("+W160", "+H120", "+A0.1", "+AM1")),
+                        ("+W128", "+H96", "+A0.1", "+AM1")),
     "media": Scene("Media", "scenes/effects/media.pov", ("+W160", "+H120", "+A0.1", "+AM1")),
     "photons": Scene("Photons", "scenes/effects/photons.pov", ("+W160", "+H120", "+A0.1", "+AM1")),
     "isosurface": Scene("Isosurface", "scenes/effects/isosurface.pov",
