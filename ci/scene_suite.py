@@ -4,8 +4,8 @@
 A scene that does not depend on the order of rendering must come out bit-identical with aligned
 seams, and with plain ones where antialiasing does not see the sections; one that does depend on it
 must be within its own noise. What is known to be otherwise must be so: a few pixels that the shadow
-cache decides (docs/povray.md), and radiosity whose sections share no cache. A case is called
-SCHEDULE.npRANKS; what else varies (ranks, shape) is dealt out over the scenes, so that all values
+cache decides (docs/povray.md), and radiosity whose sections share no samples. A case is called
+SCHEDULE.npRANKS, and .independent with samples not shared; what else varies (ranks, shape) is dealt out over the scenes, so that all values
 occur and no scene runs them all. SCENE is as in effects.fog.
 
     scene_suite.py list                 the tests, as CMakeLists.txt reads them
@@ -37,9 +37,9 @@ RENDERS = 12  # serial renders that tell a scene's noise
 # The fewer renders, the more damage passes for noise: more of the scene that mutations.py damages.
 # Of corner_jitter most are alike: to find many that differ would take long.
 RENDERS_OF = {"effects.area_light_jitter": 20, "effects.corner_jitter": 8}
-# Sections with a cache of their own each show at the seams where they are many (docs/seams.md): a
-# verdict that did not see them would see no other seam like them.
-KNOWN_SEAMS = {("effects.radiosity", "dynamic.np3")}
+# Sections with samples of their own show at the seams (docs/radiosity.md): a verdict that did not see
+# them would see no other seam like them.
+NOT_SHARED = "independent"
 RARE = 1000  # one pixel in so many, at the most, with rare_pixels
 NO_SHADOWS = "+Q3"
 # What mpipov tells of a scene, besides whether it depends on the order of rendering.
@@ -54,17 +54,22 @@ class Case:
     shape: str
     seams: tuple
     sections: int
+    radiosity: str = "auto"
 
     def name(self):
-        return f"{self.schedule}.np{self.ranks}"
+        return f"{self.schedule}.np{self.ranks}{self.suffix()}"
+
+    def suffix(self):
+        return "" if self.radiosity == "auto" else f".{self.radiosity}"
 
     def arguments(self):
-        return ["--schedule", self.schedule, "--ranks", self.ranks, "--shape", self.shape,
+        return ["--radiosity", self.radiosity, "--schedule", self.schedule, "--ranks", self.ranks, "--shape", self.shape,
                 "--seams", ",".join(self.seams), "--sections", self.sections]
 
     def verdicts(self):
         """What the cases are called in seams.json."""
-        return {f"{self.name()}.{self.shape}.{kind}.g{self.sections}" for kind in self.seams}
+        return {f"{self.schedule}.np{self.ranks}.{self.shape}.{kind}.g{self.sections}{self.suffix()}"
+                for kind in self.seams}
 
 
 def suite_scenes():
@@ -89,6 +94,8 @@ def cases_of(scene):
         # More sections than ranks with dynamic, so that there is something to hand out.
         wanted = max(2, ranks) if schedule == "static" else 2 * ranks + 1
         cases.append(Case(schedule, ranks, shape, seams, min(most, wanted)))
+    if scene.effects.get("radiosity"):
+        cases.append(replace(cases[-1], radiosity=NOT_SHARED))
     return cases
 
 
@@ -218,7 +225,7 @@ def measure(found):
 
 def wrong_verdicts(scene, case, found, code):
     """Lines that say which verdicts are not what scenes.json promises."""
-    known = (scene.name, case.name()) in KNOWN_SEAMS
+    known = case.radiosity == NOT_SHARED
     promised = ("beyond noise",) if known else \
         ("identical", "within noise") if scene.order_dependent else ("identical",)
     wrong = [f"{one['name']}: {one['verdict']['verdict']}, not {' or '.join(promised)}: "

@@ -153,7 +153,10 @@ int run(const Job& job) {
     }
     if (job.gathers) {
         if (!has("no-file")) gather(job);
-        std::cerr << statistics << "POV-Ray finished\n";
+        std::cerr << statistics << std::flush;
+        if (has("linger"))
+            for (;;) ::pause();
+        std::cerr << "POV-Ray finished\n";
         return 0;
     }
     std::ofstream(job.base + ".pov-state") << "state";

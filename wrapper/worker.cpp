@@ -74,6 +74,7 @@ void Worker::handle(const Message& message) {
 
 void Worker::take_job(const nlohmann::json& head) {
     cache_.begin(scratch_ / "radiosity.cache", head.at("cache_bytes"));
+    ++jobs_;
     gathers_ = head.at("gathers");
     job_ = {head.at("povray"),  head.at("user_arguments"), head.at("format_arguments"),
             head.at("threads"), head.at("block"),          cache_.file()};
@@ -120,7 +121,8 @@ PreparedLaunch Worker::launch(const Section& section, int attempt) {
         if (timeout_seconds_) adopted.child.set_timeout(*timeout_seconds_);
         return adopted;
     }
-    LaunchFolder folder(scratch_ / fmt::format("{}-{}", section.id, attempt));
+    // Launches of an earlier job may still be leaving.
+    LaunchFolder folder(scratch_ / fmt::format("{}-{}-{}", jobs_, section.id, attempt));
     ChildRequest request;
     if (gathers_) {
         const std::filesystem::path cache = folder.path() / section_cache_name;

@@ -83,6 +83,7 @@ class Worker {
     std::filesystem::path scratch_;
     JobCommand job_;
     ImageSize image_;
+    int jobs_ = 0;  // so far
     bool gathers_ = false;
     ReceivedCache cache_;  // of the job
     std::optional<double> timeout_seconds_;

@@ -345,6 +345,17 @@ TEST_F(WorkerTest, SendsOnlyTheSamplesThatWereNotThere) {
     std::filesystem::remove(scratch_.path() / "radiosity.cache");
 }
 
+// POV-Ray sleeps before it ends, and the next wave has sections of the same numbers.
+TEST_F(WorkerTest, ANextJobDoesNotWaitForTheLaunchesOfTheLastOne) {
+    const Environment lingering = faults("linger");
+    for (int round = 0; round < 2; ++round) {
+        send_gathering_job("");
+        assign(0, {0, 0, 32, 48});
+        EXPECT_EQ(listen().back().kind, MessageKind::done) << round;
+    }
+    worker_.stop();
+}
+
 TEST_F(WorkerTest, RendersPixelsWithTheCacheOfTheJob) {
     nlohmann::json head = job_head();
     head["cache_bytes"] = common_sample.size();
