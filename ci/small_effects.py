@@ -12,6 +12,8 @@ MIDDLE_OF_BLOCK = (20, 12)  # columns 16 to 23, rows 8 to 15
 BETWEEN_PIXELS = (20.3, 12.3)
 ONE_BLOCK = ("random numbers that are drawn in one block of the probe's render only are the same "
              "in every order of its blocks")
+NO_LIT_SURFACE = ("the area light shows in a black mirror only, and what mirrors show is not traced "
+                  "at the quality that area lights come with")
 NO_RAY = "smaller than a pixel of the probe's render, and no ray of it comes that way"
 
 
@@ -30,9 +32,9 @@ def ball(diameter, at, depth, texture):
     return f"sphere {{ 0, 1 {texture} scale {diameter / 2} translate <{x}, {y}, {depth}> }}\n"
 
 
-def scene(thing, light=""):
+def scene(thing, light="", settings=""):
     return f"""#version 3.7;
-global_settings {{ assumed_gamma 1 }}
+global_settings {{ assumed_gamma 1 {settings} }}
 camera {{ orthographic location -100*z right {WIDTH}*x up {HEIGHT}*y look_at 0 }}
 light_source {{ <-30, 50, -100>*10, rgb 1 {light} }}
 plane {{ z, 10 hollow pigment {{ checker rgb 0.4 rgb 0.7 scale 3 }} finish {{ ambient 0.2 }} }}
@@ -60,6 +62,46 @@ def isosurface():
                        "a ball of 2 pixels of the probe's render", {})
 
 
+def area_light_of_a_ball():
+    text = ("light_group { light_source { <30, 50, -100>*10, rgb 1 "
+            "area_light 100*x, 100*y, 3, 3 adaptive 0 } "
+            f"{ball(2, BETWEEN_PIXELS, 0, 'pigment { rgb 0.5 }')} global_lights off }}\n")
+    return SmallEffect("two_pixels.area_light", ("area_light",), False, scene(text),
+                       "an area light, without jitter, of which only a ball of 2 pixels of the "
+                       "probe's render has light", {})
+
+
+def area_light_in_a_mirror():
+    text = """#version 3.7;
+global_settings { assumed_gamma 1 }
+camera { location -2*z look_at 0 }
+light_source { <50, 80, -60>, rgb 1 area_light 20*x, 20*y, 3, 3 adaptive 0 }
+plane { z, 0 pigment { rgb 0 } finish { ambient 0 diffuse 0 reflection 1 } }
+plane { y, -1 pigment { checker rgb 0.4 rgb 0.7 } clipped_by { plane { z, -3 } } }
+"""
+    return SmallEffect("mirrored.area_light", ("area_light", "reflection"), False, text,
+                       "nothing but a black mirror is seen directly", {"area_light": NO_LIT_SURFACE})
+
+
+def slight_focal_blur():
+    text = """#version 3.7;
+global_settings { assumed_gamma 1 }
+camera { location -5*z look_at 0 aperture 0.0001 focal_point 0 blur_samples 4 }
+light_source { <-30, 50, -100>, rgb 1 }
+sphere { 0, 1 pigment { rgb 0.7 } }
+"""
+    return SmallEffect("slight.focal_blur", ("focal_blur",), False, text,
+                       "an aperture so small that no pixel shows it", {})
+
+
+def subsurface():
+    ball_of_wax = ball(2, BETWEEN_PIXELS, 0, "pigment { rgb 0.7 } finish { subsurface "
+                                             "{ translucency 1 } } interior { ior 1.3 }")
+    return SmallEffect("two_pixels.subsurface", ("subsurface",), True,
+                       scene(ball_of_wax, "", "subsurface { samples 8, 4 }"),
+                       "a ball of 2 pixels of the probe's render", {})
+
+
 def crand(name, diameter, known_miss):
     return SmallEffect(f"{name}.crand", ("crand",), True,
                        scene(ball(diameter, MIDDLE_OF_BLOCK, 0,
@@ -82,6 +124,7 @@ def small_effects():
             two_pixels("transparency", "pigment { rgbt 0.9 }"),
             two_pixels("media", "pigment { rgbt 1 } hollow interior { media { emission 1 "
                                 "method 3 intervals 1 samples 5 } }", ("transparency",)),
-            isosurface(),
+            isosurface(), area_light_of_a_ball(), area_light_in_a_mirror(), slight_focal_blur(),
+            subsurface(),
             crand("one_block", 6, {}), crand("many_blocks", 12, {}),
             jitter("one_block", 4, missed), jitter("many_blocks", 14, {})]

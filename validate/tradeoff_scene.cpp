@@ -3,7 +3,7 @@
 #include "job_identity.h"
 #include "povray_command.h"
 #include "probe.h"
-#include "scene_plan.h"
+#include "scene_effects.h"
 
 #include <fmt/format.h>
 
@@ -35,9 +35,7 @@ void ask_scene(const std::string& povray, const fs::path& scratch, TradeoffRepor
     report.width = image.width;
     report.height = image.height;
     report.identity = job_identity(probe, report.arguments, report.versions.at("povray"));
-    PlanRequest asked;
-    asked.slots = {1};
-    for (const auto& [name, effect] : make_plan(asked, probe.result).record.effects)
+    for (const auto& [name, effect] : find_effects(probe.result))
         report.effects[name] = effect.on;
     report.calls = {probe.result.report.antialiasing, probe.result.report.radiosity,
                     report.effects.at("order_dependent"), std::max(image.width, image.height)};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace mpipov {
 namespace {
@@ -47,10 +48,16 @@ long long counter(const LaunchReport& report, const std::string& name) {
 }
 
 ProbeResult with_sane_times(ProbeResult probe) {
-    LaunchReport& report = probe.report;
-    for (double* seconds :
-         {&report.parse_cpu, &report.photon_cpu, &report.radiosity_cpu, &report.trace_cpu})
-        *seconds = sane(*seconds);
+    std::vector<LaunchReport*> reports{&probe.report, &probe.plain};
+    if (probe.look) {
+        if (probe.look->report) reports.push_back(&*probe.look->report);
+        for (auto& [level, report] : probe.look->plain) reports.push_back(&report);
+        probe.look->pixels = std::max(1LL, probe.look->pixels);
+    }
+    for (LaunchReport* report : reports)
+        for (double* seconds :
+             {&report->parse_cpu, &report->photon_cpu, &report->radiosity_cpu, &report->trace_cpu})
+            *seconds = sane(*seconds);
     probe.probe_pixels = std::max(1LL, probe.probe_pixels);
     return probe;
 }

@@ -1,7 +1,6 @@
 #include "cost_source.h"
 
 #include "cost_model.h"
-#include "interrupt.h"
 #include "probe_launches.h"
 #include "run_record.h"
 #include "short_launch.h"
@@ -54,19 +53,6 @@ ShortLaunch launch(const ProbeRequest& request, const ImageSize& size, const Rec
                               request.timeout_seconds);
 }
 
-void wait_for(std::span<ShortLaunch> launches) {
-    for (;;) {
-        throw_if_interrupted();
-        bool running = false;
-        for (ShortLaunch& launch : launches) {
-            const bool over = launch.poll();
-            running = running || !over;
-        }
-        if (!running) return;
-        sleep_on(launches);
-    }
-}
-
 }  // namespace
 
 std::optional<CostMap> costs_of_earlier_run(const std::filesystem::path& file,
@@ -105,7 +91,7 @@ PartCosts costs_of_small_parts(const ProbeRequest& request, const ProbeResult& p
         for (std::size_t i = begin; i < end; ++i)
             launches.push_back(
                 launch(request, size, parts[i].rect, folder / fmt::format("part{}-", i)));
-        wait_for(launches);
+        wait_for_all(launches);
         for (std::size_t i = begin; i < end; ++i) {
             const ChildProcess& child = launches[i - begin].child;
             cpu_seconds += child.cpu_seconds();

@@ -82,18 +82,18 @@ bool is_on(const std::map<std::string, std::string>& settings, const char* key) 
     return value == "on" || value == "true" || value == "yes" || value == "1";
 }
 
-bool has_own_radiosity_cache(const std::string& ini) {
-    const auto settings = parse_ini(ini);
+bool has_own_radiosity_cache(const std::map<std::string, std::string>& settings) {
     return is_on(settings, "radiosity_from_file") || is_on(settings, "radiosity_to_file");
 }
 
-int block_size(const std::string& ini) {
-    const auto settings = parse_ini(ini);
-    const auto found = settings.find("render_block_size");
-    if (found == settings.end()) return 0;
-    int size = 0;
-    std::from_chars(found->second.data(), found->second.data() + found->second.size(), size);
-    return std::max(0, size);
+// The number that the settings give `key`, where they do.
+int number_in(const std::map<std::string, std::string>& settings, const std::string& key,
+              int fallback) {
+    const auto found = settings.find(key);
+    if (found == settings.end()) return fallback;
+    int number = fallback;
+    std::from_chars(found->second.data(), found->second.data() + found->second.size(), number);
+    return std::max(0, number);
 }
 
 PixelLayout layout_of_sample(const std::filesystem::path& sample) {
@@ -154,6 +154,7 @@ Probe probe_once(const ProbeRequest& request) {
     }
     probe.style.sample = launches.sample();
     result.report = parse_report(launches.render_output());
+    result.plain = parse_report(launches.plain_output());
     probe.style.extension = std::filesystem::path(image->output_file).extension().string();
     probe.style.jpeg_quality = image->jpeg_quality;
     probe.style.rle = image->rle;
@@ -165,8 +166,10 @@ Probe probe_once(const ProbeRequest& request) {
     result.stored = {image->width, image->height, layout.channels, probe.style.type,
                      std::string(to_string(layout.depth))};
     const std::string settings = text_of(launches.settings_file());
-    result.user_block = block_size(settings);
-    result.own_cache = has_own_radiosity_cache(settings);
+    const auto values = parse_ini(settings);
+    result.user_block = number_in(values, "render_block_size", 0);
+    result.quality = std::min(number_in(values, "quality", 9), 9);  // 10 and 11 are 9
+    result.own_cache = has_own_radiosity_cache(values);
     probe.settings = ini_settings(settings);
     const bool diffused = image->dithering.find("diffusion") != std::string::npos;
     const auto orders = launches.in_several_orders();

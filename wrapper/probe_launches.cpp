@@ -84,6 +84,33 @@ ProbeView middle_view(const ImageSize& image) {
     return {image, launch_area({x0, y0, x1, y1}, image)};
 }
 
+std::vector<std::string> view_arguments(const ProbeView& view, bool plain) {
+    std::vector<std::string> arguments = {fmt::format("+W{}", view.size.width),
+                                          fmt::format("+H{}", view.size.height),
+                                          fmt::format("+BS{}", probe_block), "Create_Ini="};
+    // Never as the user's own +SC, +EC, +SR, +ER would have it.
+    const auto area = view.area.empty() ? std::vector<std::string>{"+SC0", "+EC1", "+SR0", "+ER1"}
+                                        : area_arguments(view.area);
+    arguments.insert(arguments.end(), area.begin(), area.end());
+    if (plain) arguments.emplace_back("-A");
+    return arguments;
+}
+
+std::vector<std::string> small_command(const ProbeRequest& request,
+                                       const std::vector<std::string>& more) {
+    std::vector<std::string> argv{request.povray};
+    for (const auto* list : {&request.user_arguments, &more})
+        argv.insert(argv.end(), list->begin(), list->end());
+    // A user's radiosity cache is not for samples of a small picture.
+    for (const char* ours : {"-D", "-P", "-C", "+V", "+WT1", "-RFO", "All_Console=on"})
+        argv.emplace_back(ours);
+    return argv;
+}
+
+std::filesystem::path small_image(const std::filesystem::path& folder) {
+    return folder / image_name;
+}
+
 ProbeLaunches::ProbeLaunches(const ProbeRequest& request) : request_(request) {
     std::filesystem::create_directories(request.scratch);
     const std::filesystem::path header = request.scratch / "stop.inc";
@@ -96,17 +123,10 @@ void ProbeLaunches::render(const ProbeView& view) {
     for (std::size_t i = 1; i < launches_.size(); ++i)
         earlier_cpu_seconds_ += launches_[i].child.cpu_seconds();
     launches_.erase(std::next(launches_.begin()), launches_.end());
-    std::vector<std::string> arguments = {fmt::format("+W{}", view.size.width),
-                                          fmt::format("+H{}", view.size.height),
-                                          fmt::format("+BS{}", probe_block), "Create_Ini="};
-    // Never as the user's own +SC, +EC, +SR, +ER would have it.
-    const auto area = view.area.empty() ? std::vector<std::string>{"+SC0", "+EC1", "+SR0", "+ER1"}
-                                        : area_arguments(view.area);
-    arguments.insert(arguments.end(), area.begin(), area.end());
     const int number = ++views_;
-    start(fmt::format("render{}", number), arguments);
+    start(fmt::format("render{}", number), view_arguments(view, false));
     // Antialiasing of method 1 depends on where blocks end, and has no random numbers of its own.
-    arguments.emplace_back("-A");
+    const std::vector<std::string> arguments = view_arguments(view, true);
     start(fmt::format("render{}-order0", number), arguments);
     for (const Order& order : other_orders) {
         std::vector<std::string> other_order = arguments;
@@ -173,16 +193,11 @@ double ProbeLaunches::cpu_seconds() const {
 void ProbeLaunches::start(const std::string& name, const std::vector<std::string>& more) {
     const std::filesystem::path folder = request_.scratch / name;
     std::filesystem::create_directory(folder);
-    std::vector<std::string> argv{request_.povray};
-    for (const auto* list : {&request_.user_arguments, &more})
-        argv.insert(argv.end(), list->begin(), list->end());
-    // A user's radiosity cache is not for samples of a small picture.
-    for (const char* ours : {"-D", "-P", "-C", "+V", "+WT1", "-RFO", "All_Console=on"})
-        argv.emplace_back(ours);
+    std::vector<std::string> argv = small_command(request_, more);
     // The first launch is asked for the user's own output file; it never comes to write one.
-    if (!launches_.empty()) argv.push_back(fmt::format("+O\"{}\"", (folder / image_name).string()));
+    if (!launches_.empty()) argv.push_back(fmt::format("+O\"{}\"", small_image(folder).string()));
     launches_.push_back(
-        ShortLaunch::start(std::move(argv), folder / image_name, request_.timeout_seconds));
+        ShortLaunch::start(std::move(argv), small_image(folder), request_.timeout_seconds));
     ++started_;
 }
 

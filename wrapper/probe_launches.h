@@ -29,6 +29,16 @@ ProbeView middle_view(const ImageSize& image);
 
 struct ProbeRequest;  // probe.h
 
+// What makes the user's command a render of that view; without the antialiasing where it is plain.
+std::vector<std::string> view_arguments(const ProbeView& view, bool plain);
+
+// The whole argv of a small launch: the user's arguments, `more`, and what all of ours have.
+std::vector<std::string> small_command(const ProbeRequest& request,
+                                       const std::vector<std::string>& more);
+
+// The file without its extension that the launch in this folder writes.
+std::filesystem::path small_image(const std::filesystem::path& folder);
+
 class ProbeLaunches {
   public:
     // Starts the launch that resolves the user's own command.
@@ -51,6 +61,8 @@ class ProbeLaunches {
     // The scene's own #error, or what it computes from its size; not that the machine is too busy.
     bool refused_by_the_scene() const;
     std::string_view render_output() const { return launches_.at(1).child.output(); }
+    // Of the same without antialiasing.
+    std::string_view plain_output() const { return launches_.at(2).child.output(); }
 
     // The files. Throw Failure(Exit::scene), saying why, where there is none.
     std::filesystem::path sample() const;

@@ -1,6 +1,7 @@
 // With the installed POV-Ray, on small scenes written here and on those of scenes/.
 #include "probe.h"
 
+#include "cost_model.h"
 #include "failure.h"
 #include "povray_command.h"
 #include "scene_plan.h"
@@ -87,6 +88,10 @@ TEST_F(ProbeTest, TellsWhatTheResultIs) {
     EXPECT_EQ(result.result.stored.channels, 3);
     EXPECT_EQ(result.result.report.antialiasing.method, 2);
     EXPECT_EQ(result.result.report.antialiasing.depth, 2);
+    EXPECT_FALSE(result.result.plain.antialiasing.on);
+    EXPECT_EQ(counter(result.result.plain, "Samples"), 0);
+    EXPECT_EQ(counter(result.result.plain, "Pixels"), result.result.probe_pixels);
+    EXPECT_EQ(result.result.quality, 9);
     EXPECT_EQ(result.result.user_block, 0);
     EXPECT_FALSE(result.result.order_dependent);
     EXPECT_EQ(result.style.extension, ".png");
@@ -173,7 +178,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_F(ProbeTest, RegionAndBlocksAreTheUsers) {
     const Probe result =
-        probe(write("ball.pov", ball), {"+SC0.25", "+EC40", "+SR7", "+ER0.5", "+BS64"});
+        probe(write("ball.pov", ball), {"+SC0.25", "+EC40", "+SR7", "+ER0.5", "+BS64", "+Q5"});
+    EXPECT_EQ(result.result.quality, 5);
     EXPECT_EQ(result.result.image.region, (Rect{16, 6, 40, 24}));
     EXPECT_EQ(result.result.user_block, 64);
 }

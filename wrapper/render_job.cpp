@@ -1,5 +1,6 @@
 #include "render_job.h"
 
+#include "closer_look.h"
 #include "coordinator.h"
 #include "cost_model.h"
 #include "cost_source.h"
@@ -221,7 +222,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     };
     std::optional<LoadingImageLibrary> loading;
     if (!options.dry_run) loading.emplace();
-    const Probe probe =
+    Probe probe =
         run_probe({options.povray, arguments, scratch.path() / "probe", options.timeout_seconds});
     const std::string& povray = probe.povray;
     record.versions["povray"] = povray;
@@ -246,6 +247,8 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
         request.costs = find_costs(setup, arguments, probe, place, scratch.path(), record);
         plan = checked_plan(request, probe.result);
     }
+    look_closer(setup, arguments, scratch.path() / "look", probe.result, plan.record,
+                record.totals);
     if (early && plan.takes_early) {
         worker.adopt(0, std::move(early->launch));
         early.reset();

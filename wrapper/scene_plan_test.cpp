@@ -445,23 +445,6 @@ TEST(ScenePlan, ARegionIsAllThatIsPlanned) {
     EXPECT_EQ(plan.record.image.width, 640);
 }
 
-TEST(ScenePlan, EffectsAreWhatPovraySaid) {
-    ProbeResult probe = with_antialiasing(scene(640, 480, 60), 2);
-    probe.report.photons = true;
-    probe.report.photon_cpu = 1.5;
-    probe.report.counters = {{"Media Samples", 9}, {"Transmitted Rays", 3}, {"Reflected Rays", 0}};
-    const auto effects = make_plan(ranks({1}), probe).record.effects;
-    EXPECT_TRUE(effects.at("antialiasing").on);
-    EXPECT_THAT(effects.at("antialiasing").why, HasSubstr("Method 2"));
-    EXPECT_TRUE(effects.at("photons").on);
-    EXPECT_EQ(effects.at("photons").cpu_seconds, 1.5);
-    EXPECT_TRUE(effects.at("media").on);
-    EXPECT_TRUE(effects.at("transparency").on);
-    for (const char* off : {"reflection", "isosurface", "radiosity", "order_dependent"})
-        EXPECT_FALSE(effects.at(off).on) << off;
-    for (const auto& [name, effect] : effects) EXPECT_FALSE(effect.why.empty()) << name;
-}
-
 TEST(ScenePlan, RanksOfOneHostGiveTheirCoresToOneLaunchWhereThatIsFaster) {
     PlanRequest request;
     request.slots = {1, 1};

@@ -1,5 +1,6 @@
 #include "short_launch.h"
 
+#include "interrupt.h"
 #include "povray_command.h"
 
 #include <poll.h>
@@ -20,6 +21,19 @@ ShortLaunch ShortLaunch::start(std::vector<std::string> argv, std::filesystem::p
 bool ShortLaunch::poll() {
     if (!over() && !child.poll()) enough = end.seen(child, base);
     return over();
+}
+
+void wait_for_all(std::span<ShortLaunch> launches) {
+    for (;;) {
+        throw_if_interrupted();
+        bool running = false;
+        for (ShortLaunch& launch : launches) {
+            const bool over = launch.poll();
+            running = running || !over;
+        }
+        if (!running) return;
+        sleep_on(launches);
+    }
 }
 
 void sleep_on(std::span<const ShortLaunch> launches) {

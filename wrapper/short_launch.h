@@ -28,6 +28,9 @@ struct ShortLaunch {
     bool timed_out() const { return child.ended() && child.result().timed_out; }
 };
 
+// Until all are over. Throws Failure(Exit::interrupted).
+void wait_for_all(std::span<ShortLaunch> launches);
+
 // Sleeps until one that is not over may need looking after.
 void sleep_on(std::span<const ShortLaunch> launches);
 
