@@ -35,8 +35,7 @@ void ask_scene(const std::string& povray, const fs::path& scratch, TradeoffRepor
     report.width = image.width;
     report.height = image.height;
     report.identity = job_identity(probe, report.arguments, report.versions.at("povray"));
-    for (const auto& [name, effect] : find_effects(probe.result))
-        report.effects[name] = effect.on;
+    for (const auto& [name, effect] : find_effects(probe.result)) report.effects[name] = effect.on;
     report.calls = {probe.result.report.antialiasing, probe.result.report.radiosity,
                     report.effects.at("order_dependent"), std::max(image.width, image.height)};
     for (const fs::path& file : files_of_scene(report.identity))
