@@ -153,7 +153,9 @@ bool ImageSource::next_band(int rows, ImageBand& band) {
     return true;
 }
 
-void write_gray_image(const fs::path& file, int width, int height, std::span<const float> values) {
+namespace {
+
+void write_whole(const fs::path& file, const OIIO::ImageSpec& spec, const void* pixels) {
     const auto fail = [&](const std::string& why) {
         throw Failure(Exit::file, fmt::format("cannot write '{}': {}", file.string(), why));
     };
@@ -163,9 +165,8 @@ void write_gray_image(const fs::path& file, int width, int height, std::span<con
     {
         auto output = OIIO::ImageOutput::create(part.string());
         if (!output) fail(OIIO::geterror());
-        const OIIO::ImageSpec spec(width, height, 1, TypeDesc::FLOAT);
         const bool written = output->open(part.string(), spec) &&
-                             output->write_image(TypeDesc::FLOAT, values.data()) && output->close();
+                             output->write_image(spec.format, pixels) && output->close();
         if (!written) {
             const std::string why = output->geterror();
             output.reset();
@@ -175,6 +176,19 @@ void write_gray_image(const fs::path& file, int width, int height, std::span<con
     }
     fs::rename(part, file, error);
     if (error) fail(error.message());
+}
+
+}  // namespace
+
+void write_gray_image(const fs::path& file, int width, int height, std::span<const float> values) {
+    write_whole(file, OIIO::ImageSpec(width, height, 1, TypeDesc::FLOAT), values.data());
+}
+
+void write_colour_image(const fs::path& file, int width, int height,
+                        std::span<const std::uint16_t> values) {
+    OIIO::ImageSpec spec(width, height, 3, TypeDesc::UINT16);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    write_whole(file, spec, values.data());
 }
 
 }  // namespace mpipov

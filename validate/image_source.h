@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -63,5 +64,9 @@ class ImageSource {
 // says the type; types of 8 bits get [0, 1] as 0..255, clipped. Throws Failure(Exit::file).
 void write_gray_image(const std::filesystem::path& file, int width, int height,
                       std::span<const float> values);
+
+// The same of three channels of 16 bits, encoded by the sRGB curve.
+void write_colour_image(const std::filesystem::path& file, int width, int height,
+                        std::span<const std::uint16_t> values);
 
 }  // namespace mpipov

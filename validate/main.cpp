@@ -9,6 +9,7 @@
 #include "simulate_command.h"
 #include "speedup_command.h"
 #include "standard_output.h"
+#include "tradeoff_command.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -36,7 +37,8 @@ int run(int argc, char** argv) {
     const std::vector<mpipov::Command> commands{
         mpipov::add_compare_command(program),  mpipov::add_noise_command(program),
         mpipov::add_seams_command(program),    mpipov::add_speedup_command(program),
-        mpipov::add_simulate_command(program), mpipov::add_report_command(program)};
+        mpipov::add_simulate_command(program), mpipov::add_tradeoff_command(program),
+        mpipov::add_report_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version

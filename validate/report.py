@@ -4,7 +4,7 @@
     report.py INPUT.json --output PAGE.html
 
 INPUT.json is what the subcommand `report` collected: {"root", "entries": [{"kind": seams | speedup
-| noise, "file", "folder", "problems": [text], "data": object | null}]}. Whatever the results lack,
+| noise | tradeoff, "file", "folder", "problems": [text], "data": object | null}]}. Whatever the results lack,
 a page is written that says so. Names and messages in them are not trusted: they are escaped, and
 pictures are read from below the results' own folder only.
 """
@@ -21,7 +21,9 @@ import jinja2
 
 sys.dont_write_bytecode = True
 import report_plots as plots  # noqa: E402
+import report_tradeoff  # noqa: E402
 from report_cases import VERDICTS, severity  # noqa: E402
+from report_images import Unreadable, data_uri  # noqa: E402
 from report_scenes import noise_of, scene_view  # noqa: E402
 from report_text import (  # noqa: E402
     NONE, at, count, listing, number, plural, rounded, text, texts, whole)
@@ -144,15 +146,39 @@ def noise_page_of(entry, index):
     return {**view_of(entry, index), "noise": noise_of(at(entry, "data", "noise"))}
 
 
-def headline(rows, bad, speedups, noises):
+def tradeoff_crops_of(entry):
+    """The front's pictures side by side, or why there are none."""
+    import tradeoff_crops
+    try:
+        labelled, (x0, y0, x1, y1) = tradeoff_crops.crops_of(text(at(entry, "folder"), "."),
+                                                            at(entry, "data"))
+    except Unreadable as problem:
+        return [], str(problem)
+    where = f"x {x0}..{x1 - 1}, y {y0}..{y1 - 1}"
+    return [{"src": data_uri(pixels), "label": label, "where": where, "width": x1 - x0,
+             "height": y1 - y0} for label, pixels in labelled], None
+
+
+def tradeoff_of(entry, index):
+    data, view = at(entry, "data"), view_of(entry, index)
+    for verdict, line in report_tradeoff.problems_of(data):
+        view["failed_whole"] = view["failed_whole"] or verdict
+        view["problems"].append(line)
+    panels = report_tradeoff.panels_of(data)
+    crops, no_crops = tradeoff_crops_of(entry) if panels else ([], None)
+    return {**view, **report_tradeoff.facts_of(data), "crops": crops, "no_crops": no_crops,
+            "plot": plots.error_by_seconds(panels) if panels else None}
+
+
+def headline(rows, bad, speedups, noises, tradeoffs):
     if bad:
-        good_others = sum(not view["failed_whole"] for view in [*speedups, *noises])
+        good_others = sum(not view["failed_whole"] for view in [*speedups, *noises, *tradeoffs])
         return f"{bad} of {len(rows) + good_others} results to look at"
     if rows:
         return (f"All {len(rows)} cases are as they should be" if len(rows) > 1 else
                 "The case is as it should be")
     measured = [plural(len(views), what) for views, what in (
-        (speedups, "speed-up"), (noises, "noise floor")) if views]
+        (speedups, "speed-up"), (noises, "noise floor"), (tradeoffs, "trade-off")) if views]
     return f"{' and '.join(measured)} measured" if measured else "No scene was compared"
 
 
@@ -167,14 +193,16 @@ def template():
 def page_of(request):
     entries = listing(at(request, "entries"))
     scenes = scenes_of(entries)
-    speedups, noises = ([view(entry, index) for index, entry in enumerate(
+    speedups, noises, tradeoffs = ([view(entry, index) for index, entry in enumerate(
         (entry for entry in entries if at(entry, "kind") == kind), 1)]
-        for kind, view in (("speedup", speedup_of), ("noise", noise_page_of)))
-    rows = table_of(scenes, [*speedups, *noises])
+        for kind, view in (("speedup", speedup_of), ("noise", noise_page_of),
+                             ("tradeoff", tradeoff_of)))
+    rows = table_of(scenes, [*speedups, *noises, *tradeoffs])
     bad = sum(not (row["case"] and row["case"]["ok"]) for row in rows)
     return template().render(
         scenes=scenes, rows=rows, tally=tally_of(rows),
-        bad=bad, headline=headline(rows, bad, speedups, noises), speedups=speedups, noises=noises,
+        bad=bad, headline=headline(rows, bad, speedups, noises, tradeoffs),
+        speedups=speedups, noises=noises, tradeoffs=tradeoffs,
         versions=sorted({(s["mpipov"], s["povray"]) for s in scenes
                          if s["mpipov"] and s["povray"]}),
         made=datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),

@@ -35,10 +35,12 @@ Exit run_report(const ReportOptions& options) {
                                               options.folder));
     const nlohmann::json input = collect_results(root);
     if (input.at("entries").empty())
-        throw Failure(Exit::file,
-                      fmt::format("there is no seams.json, speedup.json or noise.json below '{}': "
-                                  "make one with mpipov-validate seams",
-                                  options.folder));
+        throw Failure(
+            Exit::file,
+            fmt::format(
+                "there is no seams.json, speedup.json, noise.json or tradeoff.json below '{}': "
+                "make one with mpipov-validate seams",
+                options.folder));
     const fs::path page = options.output.empty() ? root / "report.html" : fs::path(options.output);
     for (const auto& entry : input.at("entries"))
         require_other_file("--output", page, {root / entry.at("file").get<std::string>()});
@@ -59,8 +61,8 @@ Command add_report_command(CLI::App& program) {
     auto options = std::make_shared<ReportOptions>();
     CLI::App* app = program.add_subcommand(
         "report",
-        "One self-contained HTML page out of all results (seams.json, speedup.json, noise.json) "
-        "below a folder, failures first.");
+        "One self-contained HTML page out of all results (seams.json, speedup.json, noise.json, "
+        "tradeoff.json) below a folder, failures first.");
     app->add_option("DIR", options->folder, "the folder to search")->required();
     app->add_option("--output", options->output, "the page's file (default: DIR/report.html)")
         ->type_name("FILE");

@@ -30,7 +30,7 @@ struct Part {
     Type type;
 };
 
-constexpr std::array<std::string_view, 3> kinds{"seams", "speedup", "noise"};
+constexpr std::array<std::string_view, 4> kinds{"seams", "speedup", "noise", "tradeoff"};
 constexpr std::array<Part, 5> seams_parts{{{"scene", Type::string},
                                            {"complete", Type::boolean},
                                            {"image", Type::object},
@@ -99,7 +99,7 @@ void check(const json& data, std::string_view kind, std::vector<std::string>& pr
         else
             check_parts(data, seams_parts, "", problems);
         check_cases(data, problems);
-    } else if (kind == "speedup") {
+    } else if (kind == "speedup" || kind == "tradeoff") {
         check_parts(data, rows_parts, "", problems);
     } else {
         check_parts(data, noise_parts, "", problems);
@@ -122,7 +122,7 @@ json read_entry(const fs::path& file, const fs::path& root, std::string_view kin
                     fmt::format("its format is {}, not \"{}\"", format.dump(), expected));
                 data = nullptr;
             } else {
-                // Only the format of seams.json is fixed: the two others may go without.
+                // Only the format of seams.json is fixed: the others may go without.
                 if (format.is_null() && kind == "seams") problems.emplace_back("lacks 'format'");
                 check(data, kind, problems);
             }

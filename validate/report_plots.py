@@ -6,6 +6,8 @@ import os
 import re
 import tempfile
 
+import tradeoff_plot
+
 INK = "#010203"  # stands for the text colour, which the picture's own style sheet decides
 COLOURS = ["#3b86c8", "#df8a0c", "#2a9d72", "#c9588f", "#8573d6", "#8f8a2c"]
 FAR = 35  # where the pixels farther than every distance are drawn
@@ -13,12 +15,12 @@ STYLE = ("<style>svg{color:#33383f}"
          "@media(prefers-color-scheme:dark){svg{color:#c9ced6}}</style>")
 
 
-def _pyplot():
+def pyplot_for(backend):
     # Where the home folder cannot be written matplotlib warns and makes a folder of its own.
     if "MPLCONFIGDIR" not in os.environ and not os.access(os.path.expanduser("~"), os.W_OK):
         os.environ["MPLCONFIGDIR"] = os.path.join(tempfile.gettempdir(), f"mpl-{os.getuid()}")
     import matplotlib
-    matplotlib.use("svg")
+    matplotlib.use(backend)
     from matplotlib import pyplot
     pyplot.rcParams.update({
         "text.parse_math": False,  # names are not formulas
@@ -27,6 +29,10 @@ def _pyplot():
         "axes.edgecolor": INK, "axes.spines.top": False, "axes.spines.right": False,
         "axes.linewidth": 0.7, "lines.linewidth": 1.7, "legend.frameon": False})
     return pyplot
+
+
+def _pyplot():
+    return pyplot_for("svg")
 
 
 def _data_uri(figure, pyplot):
@@ -91,3 +97,9 @@ def speedup_by_ranks(curves):
     axes.set_axisbelow(True)
     axes.legend(fontsize=8.5, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncol=2)
     return _data_uri(figure, pyplot)
+
+
+def error_by_seconds(panels):
+    """panels: as tradeoff_plot.draw takes them, not empty."""
+    pyplot = _pyplot()
+    return _data_uri(tradeoff_plot.draw(pyplot, panels, INK), pyplot)

@@ -46,12 +46,12 @@ SerialRenderer::SerialRenderer(std::string povray, const std::vector<std::string
       scratch_(std::move(scratch)) {}
 
 SerialRender SerialRenderer::render(const std::string& name, const std::vector<std::string>& more,
-                                    const fs::path& folder) const {
+                                    const fs::path& folder, int threads) const {
     SerialRender render{name, {povray_}, {}, 0, 0, {}};
     std::vector<std::string>& argv = render.argv;
     argv.insert(argv.end(), arguments_.begin(), arguments_.end());
     argv.insert(argv.end(), more.begin(), more.end());
-    argv.emplace_back("+WT1");
+    argv.push_back(fmt::format("+WT{}", threads));
     const fs::path place = scratch_ / ("serial-" + name);
     std::error_code error;
     fs::remove_all(place, error);

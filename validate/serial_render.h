@@ -26,11 +26,11 @@ class SerialRenderer {
     SerialRenderer(std::string povray, const std::vector<std::string>& user_arguments,
                    std::filesystem::path scratch);
 
-    // One thread; `more` comes after the user's arguments. The image is put into `folder` as `name`
+    // `more` comes after the user's arguments. The image is put into `folder` as `name`
     // with POV-Ray's extension. Throws Failure: usage or scene with POV-Ray's words, file,
     // interrupted.
     SerialRender render(const std::string& name, const std::vector<std::string>& more,
-                        const std::filesystem::path& folder) const;
+                        const std::filesystem::path& folder, int threads = 1) const;
 
   private:
     std::string povray_;

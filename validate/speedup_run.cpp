@@ -1,6 +1,7 @@
 #include "speedup_run.h"
 
 #include "compare.h"
+#include "host_cpu.h"
 #include "interrupt.h"
 #include "povray_command.h"
 #include "povray_text.h"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <thread>
 
 namespace mpipov {
@@ -23,15 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Kind = SpeedupVariant::Kind;
-
-std::string cpu_name() {
-    std::ifstream in("/proc/cpuinfo");
-    for (std::string line; std::getline(in, line);)
-        if (line.rfind("model name", 0) == 0)
-            if (const auto at = line.find(": "); at != std::string::npos)
-                return line.substr(at + 2);
-    return {};
-}
 
 std::optional<double> load_average() {
     double load = 0;
