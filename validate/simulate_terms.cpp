@@ -132,6 +132,17 @@ void take_waves(const RunRecord& record, SimulateCase& what) {
                  fmt::format("the record: {} waves", record.waves.size()));
 }
 
+// How many there were, some of which an earlier run may have made.
+std::size_t waves_of_plan(const RunRecord& record) {
+    Partition partition;
+    partition.request.region = record.plan.region;
+    for (const SectionRecord& section : record.sections)
+        partition.sections.push_back(section.section);
+    return gather_waves(record.plan.radiosity, {record.plan.image.width, record.plan.image.height},
+                        partition)
+        .size();
+}
+
 }  // namespace
 
 std::vector<SimulateTerm> default_terms(int width, int height) {
@@ -163,9 +174,8 @@ std::vector<SimulateTerm> default_terms(int width, int height) {
 SimulateCase case_of_run(const RunRecord& record) {
     if (!record.complete) throw std::invalid_argument("the run was not finished");
     if (record.sections.empty()) throw std::invalid_argument("the record has no sections");
-    const bool kept_waves =
-        record.plan.radiosity.how != Sharing::independent && record.waves.empty();
-    if (kept_waves || std::ranges::any_of(record.sections, &SectionRecord::resumed))
+    if (record.waves.size() != waves_of_plan(record) ||
+        std::ranges::any_of(record.sections, &SectionRecord::resumed))
         throw std::invalid_argument("the run went on from another: its times are not of one run");
     const PlanRecord& plan = record.plan;
     SimulateCase what;

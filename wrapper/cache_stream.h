@@ -17,10 +17,9 @@ std::optional<std::vector<std::byte>> next_piece(std::string_view text, std::siz
 // What a rank was sent, as a file that POV-Ray reads.
 class ReceivedCache {
   public:
-    // `bytes` are to come; with none there is no file.
+    // `bytes` are to come; with none there is no file. Throws Failure(Exit::file).
     void begin(const std::filesystem::path& file, std::size_t bytes);
-    // Throws std::runtime_error where that is more than was announced or the file cannot be
-    // written.
+    // Throws std::runtime_error where that is more than was announced, Failure(Exit::file).
     void take(const std::vector<std::byte>& piece);
 
     bool complete() const { return received_ == announced_; }
@@ -35,8 +34,10 @@ class ReceivedCache {
 };
 
 // What POV-Ray wrote to `file` behind the `known` bytes that were there before; nothing where there
-// is no file, as where nothing in a section is lit. Throws std::runtime_error where it cannot be
-// read or is shorter.
-std::string read_new_samples(const std::filesystem::path& file, std::size_t known);
+// is no file, as where nothing in a section is lit. `calculated`: how many samples it says that it
+// took. Throws Failure(Exit::file) where it cannot be read, is shorter, holds a line that is no
+// sample, or holds fewer: where a disk is full POV-Ray saves what fits, and exits with 0.
+std::string read_new_samples(const std::filesystem::path& file, std::size_t known,
+                             long long calculated);
 
 }  // namespace mpipov

@@ -261,7 +261,7 @@ void Coordinator::take_failed(const Message& message) {
     // Where another rank has it under way too, that may still come out well.
     if (progress.runs.empty() && schedule_.failures(id) > setup_.retries)
         throw Failure(
-            Exit::scene,
+            static_cast<Exit>(message.head.at("code").get<int>()),
             fmt::format("section {} failed {} times, last on {}: {}", id, schedule_.failures(id),
                         setup_.ranks[static_cast<std::size_t>(message.peer)].host,
                         message.head.at("why").get<std::string>()));

@@ -13,6 +13,8 @@
 //   wrong-size writes a frame of one more row
 //   slow       first prints progress, 20 times within a second
 //   linger     has done its work, and sleeps for ever
+//   few-samples, half-a-sample
+//              saves fewer radiosity samples than it says that it took; a last one cut short
 //   late-error closes a file that is cut short, then says that the disk is full, ends with 1
 //   copy       writes a copy of the file that FAKE_POVRAY_COPY names
 // FAKE_POVRAY_ONCE names a file: where it can be made, the fault happens, else it does not.
@@ -153,6 +155,8 @@ int run(const Job& job) {
     }
     if (job.gathers) {
         if (!has("no-file")) gather(job);
+        if (has("half-a-sample")) std::ofstream(job.cache, std::ios::app) << "C1\t0";
+        if (has("few-samples")) std::cerr << "Radiosity samples calculated:   100 (2.32 %)\n";
         std::cerr << statistics << std::flush;
         if (has("linger"))
             for (;;) ::pause();

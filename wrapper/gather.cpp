@@ -1,8 +1,12 @@
 #include "gather.h"
 
 #include "event_loop.h"
+#include "failure.h"
 #include "radiosity_cache.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -43,9 +47,18 @@ std::string gather_radiosity(const GatherSetup& setup, const GatherContext& cont
         const GatherWave& wave = setup.waves[i];
         Coordinator coordinator(setup_of(setup, wave, ranks, cache.text()), context.transport,
                                 nothing, nullptr, context.clock);
-        coordinator.start();
-        run_event_loop({context.transport, context.worker, &coordinator,
-                        [&] { context.progress(static_cast<int>(i), coordinator.fraction()); }});
+        try {
+            coordinator.start();
+            run_event_loop({context.transport, context.worker, &coordinator, [&] {
+                                context.progress(static_cast<int>(i), coordinator.fraction());
+                            }});
+        } catch (const Failure& failure) {
+            if (failure.code() == Exit::interrupted) throw;
+            throw Failure(failure.code(),
+                          fmt::format("radiosity samples, wave {} of {} ({} x {} pixels): {}",
+                                      i + 1, setup.waves.size(), wave.image.width,
+                                      wave.image.height, failure.what()));
+        }
         // In the order of the sections, whichever ended first.
         for (const std::string& samples : coordinator.samples()) cache.add(samples);
         RunRecord of_wave;
@@ -55,6 +68,9 @@ std::string gather_radiosity(const GatherSetup& setup, const GatherContext& cont
         record.totals.launches += of_wave.totals.launches;
         record.totals.retries += of_wave.totals.retries;
         record.totals.cpu_seconds += of_wave.totals.cpu_seconds;
+        for (const std::string& warning : of_wave.warnings)
+            if (std::ranges::find(record.warnings, warning) == record.warnings.end())
+                record.warnings.push_back(warning);
         for (std::size_t rank = 0; rank < ranks.size(); ++rank)
             ranks[rank].busy_seconds = of_wave.ranks[rank].busy_seconds;
         if (context.journal != nullptr)

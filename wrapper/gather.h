@@ -19,7 +19,7 @@ struct GatherSetup {
     // The job, its ranks and how it is retried; what the image's sections are does not matter.
     CoordinatorSetup job;
     std::vector<GatherWave> waves;
-    std::string first;  // a cache that the first wave reads
+    std::string first;                      // a cache that the first wave reads
     std::optional<double> timeout_seconds;  // of a launch that gathers
 };
 

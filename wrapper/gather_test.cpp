@@ -1,6 +1,7 @@
 #include "gather.h"
 
 #include "event_loop.h"
+#include "failure.h"
 #include "fake_povray_test_support.h"
 #include "in_process_transport.h"
 
@@ -110,6 +111,25 @@ TEST_F(GatherTest, GoesOnAfterAFault) {
         once("FAKE_POVRAY_ONCE", (elsewhere_.path() / "crash").string());
     EXPECT_EQ(gather(setup(2, {Sharing::joined, 1, 1})), expected);
     EXPECT_EQ(record_.totals.retries, 1);
+}
+
+TEST_F(GatherTest, SaysInWhichWaveItFailed) {
+    const Environment what("FAKE_POVRAY", "error");
+    try {
+        gather(setup(1, {Sharing::joined, 1, 2}));
+        FAIL();
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), Exit::scene);
+        EXPECT_THAT(failure.what(), HasSubstr("wave 1 of 2 (32 x 24 pixels): section"));
+    }
+}
+
+TEST_F(GatherTest, BeginsWithWhatTheProbeTook) {
+    GatherSetup with_first = setup(1, {Sharing::joined, 1, 1});
+    with_first.first = "C3\t0\t0\t0\t0\t0\t0\t0\t0\t0\t0\n";
+    const std::vector<std::string> lines = lines_of(gather(with_first));
+    ASSERT_EQ(lines.size(), 8U);
+    EXPECT_THAT(lines[2], HasSubstr("\t48\t1\t0"));
 }
 
 TEST_F(GatherTest, GoesOnFromTheWaveThatTheJournalKept) {

@@ -75,8 +75,10 @@ void set_radiosity(Options& o, const std::string& value) {
         if (value.substr(0, colon) != to_string(how)) continue;
         if (colon != std::string::npos) {
             if (how == Sharing::independent) break;
-            o.radiosity_passes =
-                whole(value.substr(colon + 1), 1, "a number of passes: a whole number from 1");
+            constexpr int most_passes = 100;
+            constexpr const char* wanted = "a number of passes: a whole number from 1 to 100";
+            o.radiosity_passes = whole(value.substr(colon + 1), 1, wanted);
+            if (o.radiosity_passes > most_passes) bad_value(value.substr(colon + 1), wanted);
         }
         o.radiosity = how;
         return;

@@ -223,8 +223,8 @@ TEST(Options, WaysToShareRadiosity) {
     EXPECT_EQ(parse_options({"--radiosity=joined:2", "a.pov"}).radiosity_passes, 2);
     const Options last = parse_options({"--radiosity=auto", "a.pov"});
     EXPECT_FALSE(last.radiosity);
-    for (const char* text :
-         {"", "share", "shared:", "shared:0", "shared:x", "independent:1", "joined:2:3", ":2"})
+    for (const char* text : {"", "share", "shared:", "shared:0", "shared:x", "independent:1",
+                             "joined:2:3", ":2", "shared:101", "joined:2147483647"})
         EXPECT_THAT(usage_error({std::string("--radiosity=") + text, "a.pov"}),
                     HasSubstr("--radiosity"))
             << text;

@@ -76,11 +76,12 @@ std::vector<std::string> command(const JobCommand& job, const std::vector<std::s
 std::vector<std::string> image_command(const JobCommand& job, const std::vector<std::string>& area,
                                        const std::filesystem::path& output_base) {
     std::vector<std::string> argv = command(job, area);
+    // Not by many launches side by side.
+    argv.emplace_back("-RFO");
     // What is loaded makes the pretrace vain.
     if (!job.radiosity_cache.empty())
-        for (const std::string& one :
-             {std::string("+RFI"), std::string("-RFO"), std::string("-RVP"),
-              fmt::format("+RF\"{}\"", job.radiosity_cache.string())})
+        for (const std::string& one : {std::string("+RFI"), std::string("-RVP"),
+                                       fmt::format("+RF\"{}\"", job.radiosity_cache.string())})
             argv.push_back(one);
     argv.push_back(fmt::format("+O\"{}\"", output_base.string()));
     return argv;

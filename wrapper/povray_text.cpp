@@ -290,4 +290,10 @@ std::map<std::string, std::string> parse_ini(std::string_view text) {
     return values;
 }
 
+long long radiosity_samples(std::string_view text) {
+    const auto counters = parse_report(text).counters;
+    const auto found = counters.find("Radiosity samples calculated");
+    return found == counters.end() ? 0 : found->second;
+}
+
 }  // namespace mpipov

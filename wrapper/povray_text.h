@@ -79,4 +79,7 @@ IniSettings ini_settings(std::string_view text);
 // Keys are lower case; of repeated ones (Library_Path) the last stays.
 std::map<std::string, std::string> parse_ini(std::string_view text);
 
+// How many radiosity samples a launch says that it took; 0 where it says nothing of it.
+long long radiosity_samples(std::string_view text);
+
 }  // namespace mpipov

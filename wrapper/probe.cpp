@@ -82,10 +82,6 @@ bool is_on(const std::map<std::string, std::string>& settings, const char* key) 
     return value == "on" || value == "true" || value == "yes" || value == "1";
 }
 
-bool has_own_radiosity_cache(const std::map<std::string, std::string>& settings) {
-    return is_on(settings, "radiosity_from_file") || is_on(settings, "radiosity_to_file");
-}
-
 // The number that the settings give `key`, where they do.
 int number_in(const std::map<std::string, std::string>& settings, const std::string& key,
               int fallback) {
@@ -169,15 +165,16 @@ Probe probe_once(const ProbeRequest& request) {
     const auto values = parse_ini(settings);
     result.user_block = number_in(values, "render_block_size", 0);
     result.quality = std::min(number_in(values, "quality", 9), 9);  // 10 and 11 are 9
-    result.own_cache = has_own_radiosity_cache(values);
+    result.own_cache = is_on(values, "radiosity_from_file");
+    result.writes_cache = is_on(values, "radiosity_to_file");
     probe.settings = ini_settings(settings);
     const bool diffused = image->dithering.find("diffusion") != std::string::npos;
     const auto orders = launches.in_several_orders();
     result.seen_whole = !refuses_to_be_small;
-    result.order_dependent =
-        diffused || result.report.radiosity ||
-        !std::all_of(orders.begin(), orders.end(),
-                     [&](const auto& other) { return same_pixels(orders.front(), other); });
+    result.order_dependent = diffused || result.report.radiosity ||
+                             !std::all_of(orders.begin(), orders.end(), [&](const auto& other) {
+                                 return same_pixels(orders.front(), other);
+                             });
     if (result.seen_whole) probe.radiosity_cache = launches.radiosity_cache();
     probe.warnings = parse_warnings(launches.render_output());
     probe.cpu_seconds = launches.cpu_seconds();

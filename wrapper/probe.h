@@ -32,7 +32,7 @@ struct Probe {
     std::string povray;  // its version
     ProbeResult result;
     FileStyle style;
-    IniSettings settings;  // of the user's own command, with our +HI and +GI
+    IniSettings settings;         // of the user's own command, with our +HI and +GI
     std::string radiosity_cache;  // samples of a small render of the whole picture; may be empty
     std::vector<std::string> warnings;
     double cpu_seconds = 0;

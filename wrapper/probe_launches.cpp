@@ -88,7 +88,9 @@ ProbeView middle_view(const ImageSize& image) {
 std::vector<std::string> view_arguments(const ProbeView& view, bool plain) {
     std::vector<std::string> arguments = {fmt::format("+W{}", view.size.width),
                                           fmt::format("+H{}", view.size.height),
-                                          fmt::format("+BS{}", probe_block), "Create_Ini="};
+                                          fmt::format("+BS{}", probe_block), "Create_Ini=",
+                                          // A user's cache is not for samples of a small picture.
+                                          "-RFO"};
     // Never as the user's own +SC, +EC, +SR, +ER would have it.
     const auto area = view.area.empty() ? std::vector<std::string>{"+SC0", "+EC1", "+SR0", "+ER1"}
                                         : area_arguments(view.area);
@@ -102,8 +104,7 @@ std::vector<std::string> small_command(const ProbeRequest& request,
     std::vector<std::string> argv{request.povray};
     for (const auto* list : {&request.user_arguments, &more})
         argv.insert(argv.end(), list->begin(), list->end());
-    // A user's radiosity cache is not for samples of a small picture.
-    for (const char* ours : {"-D", "-P", "-C", "+V", "+WT1", "-RFO", "All_Console=on"})
+    for (const char* ours : {"-D", "-P", "-C", "+V", "+WT1", "All_Console=on"})
         argv.emplace_back(ours);
     return argv;
 }

@@ -27,7 +27,8 @@ struct ProbeResult {
     bool order_dependent = false;  // the small render came out differently in another block order
     bool seen_whole = true;        // false: it showed the middle of the picture only
     int quality = 9;               // the user's own +Q, at most 9
-    bool own_cache = false;        // the user's settings name a radiosity cache to read or to write
+    bool own_cache = false;        // the user's settings name a radiosity cache to read
+    bool writes_cache = false;     // and one to write
     int user_block = 0;            // the user's own +BS, 0: POV-Ray's default
     ImageInfo stored;              // type, depth and channels of the file that POV-Ray wrote
     std::optional<QualityLook> look;  // empty: the levels were not asked for

@@ -56,7 +56,7 @@ void ProgressView::clear() {
 
 void ProgressView::update(double fraction, int sections_done, int sections, double seconds) {
     show(fraction, seconds,
-         [&] { return progress_line(fraction, sections_done, sections, seconds); });
+         [&] { return progress_line(fraction, sections_done, sections, seconds - began_); });
 }
 
 void ProgressView::update_gathering(int wave, int waves, double fraction, double seconds) {
@@ -66,14 +66,14 @@ void ProgressView::update_gathering(int wave, int waves, double fraction, double
     });
 }
 
-// `fraction` only grows, and only says when a line is due.
+// `fraction` only says when a line is due; that of the image begins anew after the waves.
 void ProgressView::show(double fraction, double seconds,
                         const std::function<std::string()>& line_of) {
     if (style_ == ProgressStyle::none) return;
     const bool due =
         live_ ? seconds - last_update_ >= live_interval
               : fraction != last_fraction_ && (seconds - last_update_ >= plain_interval ||
-                                               fraction - last_fraction_ >= plain_step);
+                                               std::abs(fraction - last_fraction_) >= plain_step);
     if (!due) return;
     last_update_ = seconds;
     last_fraction_ = fraction;

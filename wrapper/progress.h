@@ -18,6 +18,8 @@ class ProgressView {
 
     // fraction: 0 to 1 of the pixels; seconds since the run began.
     void update(double fraction, int sections_done, int sections, double seconds);
+    // From when on the time that is left is reckoned; else the run's beginning.
+    void begin_image(double seconds) { began_ = seconds; }
     // Before the sections: `wave` of `waves` gathers radiosity samples, from 1.
     void update_gathering(int wave, int waves, double fraction, double seconds);
     // All is rendered.
@@ -35,7 +37,7 @@ class ProgressView {
 
     ProgressStyle style_;
     bool live_ = false, shown_ = false;
-    double last_update_ = -1e9, last_fraction_ = -1;
+    double last_update_ = -1e9, last_fraction_ = -1, began_ = 0;
 };
 
 // "43 %, 7 of 16 sections, 12 s left"

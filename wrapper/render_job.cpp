@@ -210,6 +210,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
                                                   fraction, clock.seconds());
                                           }},
                                          record, job.ranks);
+        progress.begin_image(clock.seconds());
         coordinator.emplace(std::move(job), transport, canvas, journal ? &*journal : nullptr, now);
         if (options.resume)
             progress.inform(fmt::format("mpipov: {} of {} sections were finished before",

@@ -52,11 +52,10 @@ void take_grid(Plan& plan, const Journal& journal, const Options& options) {
     if (options.sections)
         require_same(journal, "--sections", fmt::format("{}", *options.sections),
                      fmt::format("{}", earlier.sections));
-    if (options.radiosity)
-        require_same(
-            journal, "--radiosity",
-            describe({*options.radiosity, options.radiosity_passes, options.radiosity_scale}),
-            describe(earlier.radiosity));
+    // The plan's own, which is what was asked for as far as the scene calls for it.
+    if (options.radiosity || options.radiosity_scale > 1)
+        require_same(journal, "--radiosity", describe(plan.record.radiosity),
+                     describe(earlier.radiosity));
     plan.record.shape = earlier.shape;
     plan.record.seams = earlier.seams;
     plan.record.halo = earlier.halo;

@@ -171,11 +171,14 @@ RadiositySharing choose_sharing(const PlanRequest& request, const ProbeResult& p
         if (asked) notes.push_back("the scene has no radiosity: --radiosity does nothing");
         return {};
     }
+    if (probe.writes_cache)
+        notes.push_back(
+            "the radiosity cache of the settings (+RFO) is not written: no section has "
+            "all of its samples");
     if (probe.own_cache) {
         if (asked)
             notes.push_back(
-                "the settings name a radiosity cache (+RFI, +RFO): --radiosity does "
-                "nothing");
+                "the settings name a radiosity cache to read (+RFI): --radiosity does nothing");
         return {};
     }
     const Sharing by_itself = sections > 1 ? Sharing::joined : Sharing::independent;

@@ -289,6 +289,11 @@ TEST(ScenePlan, AUsersOwnRadiosityCacheIsLeftAlone) {
     const Plan asked = make_plan(request, probe);
     EXPECT_TRUE(asked.waves.empty());
     EXPECT_THAT(asked.notes, testing::Contains(HasSubstr("+RFI")));
+    probe.own_cache = false;
+    probe.writes_cache = true;
+    const Plan writing = make_plan(request, probe);
+    EXPECT_FALSE(writing.waves.empty());
+    EXPECT_THAT(writing.notes, testing::Contains(HasSubstr("+RFO")));
 }
 
 TEST(ScenePlan, WavesTakeTheirTimeAndSaveThePretrace) {

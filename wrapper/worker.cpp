@@ -101,14 +101,17 @@ void Worker::start(const Message& message) {
                              std::nullopt,
                              0,
                              {},
+                             Exit::scene,
                              0,
                              false});
     } catch (const std::exception& error) {
+        const bool disk = dynamic_cast<const std::filesystem::filesystem_error*>(&error) != nullptr;
         transport_.send({MessageKind::failed,
                          coordinator,
                          {{"section", section.id},
                           {"attempt", attempt},
                           {"why", error.what()},
+                          {"code", static_cast<int>(disk ? Exit::file : Exit::scene)},
                           {"cpu_seconds", 0.0}},
                          {}});
     }
@@ -174,6 +177,8 @@ Worker::State Worker::step(Launch& launch) {
         return State::idle;
     } catch (const std::exception& error) {
         launch.broken = error.what();
+        if (const auto* failure = dynamic_cast<const Failure*>(&error))
+            launch.code = failure->code();
         launch.reader.reset();
         launch.samples.reset();
         return end_broken(launch);
@@ -183,8 +188,9 @@ Worker::State Worker::step(Launch& launch) {
 // Where POV-Ray could not write its file it has not said so yet, and knows better why.
 Worker::State Worker::end_broken(Launch& launch) {
     if (!launch.child.poll()) return State::idle;
-    send_failure(launch,
-                 launch.child.result().exit_code == 0 ? launch.broken : describe_end(launch.child));
+    const bool ours = launch.child.result().exit_code == 0;
+    send_failure(launch, ours ? launch.broken : describe_end(launch.child),
+                 ours ? launch.code : Exit::scene);
     return State::over;
 }
 
@@ -208,7 +214,7 @@ Worker::State Worker::end_cancelled(Launch& launch) {
 
 Worker::State Worker::begin_reading(Launch& launch) {
     if (launch.child.ended() && launch.child.result().exit_code != 0) {
-        send_failure(launch, describe_end(launch.child));
+        send_failure(launch, describe_end(launch.child), Exit::scene);
         return State::over;
     }
     launch.reader.emplace(find_image(launch.folder.path() / section_image_name), image_.width,
@@ -218,10 +224,11 @@ Worker::State Worker::begin_reading(Launch& launch) {
 
 Worker::State Worker::begin_sending_samples(Launch& launch) {
     if (launch.child.ended() && launch.child.result().exit_code != 0) {
-        send_failure(launch, describe_end(launch.child));
+        send_failure(launch, describe_end(launch.child), Exit::scene);
         return State::over;
     }
-    launch.samples = read_new_samples(launch.folder.path() / section_cache_name, cache_.bytes());
+    launch.samples = read_new_samples(launch.folder.path() / section_cache_name, cache_.bytes(),
+                                      radiosity_samples(launch.child.output()));
     return State::busy;
 }
 
@@ -265,9 +272,10 @@ void Worker::send_progress(Launch& launch) {
     transport_.send({MessageKind::progress, coordinator, std::move(head), {}});
 }
 
-void Worker::send_failure(const Launch& launch, const std::string& why) {
+void Worker::send_failure(const Launch& launch, const std::string& why, Exit code) {
     nlohmann::json head = head_of(launch);
     head["why"] = why;
+    head["code"] = static_cast<int>(code);
     head["cpu_seconds"] = launch.child.ended() ? launch.child.result().cpu_seconds : 0.0;
     transport_.send({MessageKind::failed, coordinator, std::move(head), {}});
 }

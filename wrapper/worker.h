@@ -6,6 +6,7 @@
 #include "cache_stream.h"
 #include "child_process.h"
 #include "end_of_work.h"
+#include "failure.h"
 #include "image_file.h"
 #include "povray_command.h"
 #include "prepared_launch.h"
@@ -57,7 +58,8 @@ class Worker {
         std::optional<SectionReader> reader;  // once POV-Ray has done its work
         std::optional<std::string> samples;   // the same, where it gathers
         std::size_t samples_sent = 0;
-        std::string broken;  // why what it made could not be read; it has not ended
+        std::string broken;       // why what it made could not be read; it has not ended
+        Exit code = Exit::scene;  // what that is
         double last_fraction = 0;
         bool cancelled = false;  // another rank was first
     };
@@ -76,7 +78,7 @@ class Worker {
     State send_samples(Launch& launch);
     State send_done(const Launch& launch);
     void send_progress(Launch& launch);
-    void send_failure(const Launch& launch, const std::string& why);
+    void send_failure(const Launch& launch, const std::string& why, Exit code);
     nlohmann::json head_of(const Launch& launch) const;
 
     Transport& transport_;

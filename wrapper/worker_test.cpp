@@ -377,6 +377,20 @@ TEST_F(WorkerTest, NothingLitIsNoSamples) {
     EXPECT_THAT(of_kind(heard, MessageKind::cache), testing::IsEmpty());
 }
 
+// A full disk: POV-Ray saves what fits, and exits with 0.
+TEST_F(WorkerTest, FewerSamplesThanPovrayTookAreNotTaken) {
+    for (const std::string fault : {"few-samples", "half-a-sample"}) {
+        const Environment few = faults(fault);
+        send_gathering_job("");
+        assign(0, {0, 0, 32, 48});
+        const std::vector<Message> heard = listen();
+        EXPECT_EQ(heard.back().kind, MessageKind::failed) << fault;
+        EXPECT_THAT(heard.back().head.at("why").get<std::string>(), HasSubstr("space left"));
+        EXPECT_EQ(heard.back().head.at("code"), static_cast<int>(Exit::file));
+        EXPECT_THAT(of_kind(heard, MessageKind::cache), testing::IsEmpty());
+    }
+}
+
 TEST_F(WorkerTest, SaysWhyGatheringFailed) {
     const Environment fault = faults("error");
     send_gathering_job("");
