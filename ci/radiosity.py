@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """What sharing radiosity samples between sections does to the seams and what it costs.
 
-    radiosity.py measure    takes up an interrupted run; about half an hour on 2 cores
+    radiosity.py measure    takes up an interrupted run; about 40 minutes on 2 cores
     radiosity.py page       docs/radiosity.md's tables from the records
 
 Verdicts are those of `mpipov-validate seams`. Speed-up with 2 ranks is measured in turns with the
@@ -34,14 +34,14 @@ MARK = "<!-- what follows is written by ci/radiosity.py -->"
 class Scene:
     file: Path
     judged: tuple = ("+W320", "+H240", "-A")
-    timed: tuple = ()  # empty: it is not
+    timed: tuple = ()  # sizes; empty: it is not
 
 
+TIMED_SIZES = ((640, 480), (1600, 1200))
+TIMED_OPTIONS = ("+A0.3",)
 SCENES = {
-    "radiosity/cornell": Scene(EXAMPLES / "radiosity" / "cornell.pov",
-                               timed=("+W640", "+H480", "+A0.3")),
-    "effects/radiosity": Scene(ROOT / "scenes" / "effects" / "radiosity.pov",
-                               timed=("+W640", "+H480", "+A0.3")),
+    "radiosity/cornell": Scene(EXAMPLES / "radiosity" / "cornell.pov", timed=TIMED_SIZES),
+    "effects/radiosity": Scene(ROOT / "scenes" / "effects" / "radiosity.pov", timed=TIMED_SIZES),
     "radiosity/radiosity2": Scene(EXAMPLES / "radiosity" / "radiosity2.pov"),
     "radiosity/radiosity_36": Scene(EXAMPLES / "radiosity" / "radiosity_36.pov",
                                     judged=("+W224", "+H144", "-A")),
@@ -77,9 +77,10 @@ def judge(scene, folder, programs):
     return found
 
 
-def timed_once(scene, sharing, folder, programs):
+def timed_once(scene, size, sharing, folder, programs):
     """Wall seconds, and the record where mpipov rendered."""
-    common = [scene.file, f"+L{scene.file.parent}", *scene.timed, "-D"]
+    common = [scene.file, f"+L{scene.file.parent}", f"+W{size[0]}", f"+H{size[1]}", *TIMED_OPTIONS,
+              "-D"]
     begin = time.monotonic()
     if sharing == "serial":
         require_success(programs.serial([*common, "+WT1", "+Oserial.png"], folder))
@@ -89,12 +90,12 @@ def timed_once(scene, sharing, folder, programs):
     return time.monotonic() - begin, json.loads((folder / "run.json").read_text())
 
 
-def measure_speed(scene, folder, programs):
+def measure_speed(scene, size, folder, programs):
     fresh_folder(folder)
     seconds = {sharing: [] for sharing in ("serial", *TIMED)}
     for turn in range(REPEAT):
         for sharing in sorted(seconds, reverse=turn % 2 == 1):
-            taken, record = timed_once(scene, sharing, folder, programs)
+            taken, record = timed_once(scene, size, sharing, folder, programs)
             seconds[sharing].append(taken)
             if record:
                 write(folder / f"{sharing}.json", record)
@@ -107,8 +108,7 @@ def measure_speed(scene, folder, programs):
                                            f"{serial:.3f}"])
         simulated[sharing] = said["rows"]
     sections = json.loads((folder / "joined.json").read_text())["plan"]["grid"]["sections"]
-    return {"arguments": scene.timed, "seconds": seconds, "simulated": simulated,
-            "sections": sections}
+    return {"size": size, "seconds": seconds, "simulated": simulated, "sections": sections}
 
 
 def measure_command(options):
@@ -117,23 +117,27 @@ def measure_command(options):
         if not scene.file.exists():
             raise Skip(f"there is no '{scene.file}': install povray-examples (see ci/install-deps)")
         folder = options.work / name.replace("/", "_")
-        for part, of, needed in (("grids", judge, True),
-                                 ("speed", measure_speed, bool(scene.timed))):
-            file = folder.with_name(f"{folder.name}.{part}.json")
-            if needed and not file.exists():
-                file.parent.mkdir(parents=True, exist_ok=True)
-                write(file, of(scene, folder / part, programs))
+        folder.mkdir(parents=True, exist_ok=True)
+        parts = {"grids": lambda place, scene=scene: judge(scene, place, programs)}
+        for size in scene.timed:
+            parts[f"speed{size[0]}x{size[1]}"] = lambda place, scene=scene, size=size: \
+                measure_speed(scene, size, place, programs)
+        for part, measure in parts.items():
+            file = folder / f"{part}.json"
+            if not file.exists():
+                write(file, measure(folder / part))
     return 0
 
 
 def page_command(options):
     found = {}
     for name in SCENES:
-        base = options.work / name.replace("/", "_")
-        parts = {part: base.with_name(f"{base.name}.{part}.json") for part in ("grids", "speed")}
-        if parts["grids"].exists():
-            found[name] = {part: json.loads(file.read_text())
-                           for part, file in parts.items() if file.exists()}
+        folder = options.work / name.replace("/", "_")
+        if (folder / "grids.json").exists():
+            found[name] = {"grids": json.loads((folder / "grids.json").read_text()),
+                           "speed": [json.loads(file.read_text())
+                                     for file in sorted(folder.glob("speed*x*.json"),
+                                                        key=lambda file: file.stat().st_mtime)]}
     if not found:
         raise Skip(f"nothing in '{options.work}': radiosity.py measure makes it")
     written_by_hand, _, _ = options.page.read_text().partition(MARK)

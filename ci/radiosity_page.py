@@ -13,7 +13,7 @@ def verdict(case):
 
 def largest_step(case):
     found = case["verdict"].get("step_test")
-    return f"{found['step']:.2f} of {abs(found['expected']) + found['detectable']:.2f}" if found else "-"
+    return f"{found['largest']:.1f} of {found['critical']:.1f}" if found else "-"
 
 
 def cpu_seconds(case):
@@ -41,31 +41,32 @@ def seams_show(found, sharing):
             if case["radiosity"] == sharing and not case["verdict"]["ok"]]
 
 
-def speed_rows(name, found, ranks):
-    speed = found["speed"]
+def speed_rows(name, speed, ranks):
     serial = statistics.median(speed["seconds"]["serial"])
     for sharing, rows in speed["simulated"].items():
         seconds = speed["seconds"][sharing]
         simulated = {row["ranks"]: row["speedup"] for row in rows}
-        yield [name, speed["sections"], sharing, f"{serial:.1f}",
+        yield [name, "x".join(map(str, speed["size"])), speed["sections"], sharing, f"{serial:.1f}",
                f"{statistics.median(seconds):.1f} ({min(seconds):.1f} to {max(seconds):.1f})",
                f"{serial / statistics.median(seconds):.2f}",
                *(f"{simulated[count]:.2f}" for count in ranks)]
 
 
 def page(found, ranks):
-    seams = table(["scene", "sections", "sharing", "mean difference", "largest step, of what is found",
+    seams = table(["scene", "sections", "sharing", "mean difference", "largest step, sigma of allowed",
                    "verdict", "CPU s"],
                   [row for name, parts in found.items() for row in seam_rows(name, parts)])
-    speed = table(["scene", "sections", "sharing", "serial, s", "2 ranks, s", "speed-up measured",
+    speed = table(["scene", "size", "sections", "sharing", "serial, s", "2 ranks, s", "speed-up measured",
                    *(f"simulated, {count}" for count in ranks)],
-                  [row for name, parts in found.items() if "speed" in parts
-                   for row in speed_rows(name, parts, ranks)])
+                  [row for name, parts in found.items() for speed in parts["speed"]
+                   for row in speed_rows(name, speed, ranks)])
     return f"""## Seams
 
 Levels of 255 against the serial render. *Noise*: what other serial renders, equally right, differ by.
-The step is that of the signed error at the seam where it is most significant, and what of it would be
-found to be damage.
+The step is that of the signed error at the seam where it is most significant, in standard deviations of
+what equally right renders have there, and how many of those are allowed to the largest of so many seams.
+The other tests of the verdict are those of docs/seams.md. CPU seconds are of all of a run, its
+probe included.
 
 {seams}
 

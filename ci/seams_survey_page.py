@@ -212,8 +212,9 @@ of 255.""")
 
 In scenes with noise of their own the tests below find most plain seams, since single pixels of edges
 lie far outside that noise, and so does a halo of one pixel in some. Aligned seams pass, but where
-radiosity has a cache for each section: there the brightness steps at the seams by more than between
-serial renders. A halo of 2 or 4 passes there too, with a test of less power: three noises add up
+radiosity had a cache for each section, as it was when this was measured (`--radiosity independent` now):
+there the brightness steps at the seams by more than between serial renders; with samples that sections
+share it does not ([radiosity.md](radiosity.md)). A halo of 2 or 4 passes there too, with a test of less power: three noises add up
 where the reference in one block is not the one that the noise was measured with.
 
 ## Scenes whose pixels do not depend on the order of rendering: {len(names['exact'])}
