@@ -15,6 +15,7 @@
 #include "stitch.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ struct ProbeRequest {
     std::vector<std::string> user_arguments;  // quoted as POV-Ray wants them
     std::filesystem::path scratch;            // an empty folder
     std::optional<double> timeout_seconds;
+    // Called once where radiosity shows, well before the probe is over: the pixels depend on the
+    // order of rendering then.
+    std::function<void()> at_radiosity = {};
 };
 
 struct Probe {

@@ -171,6 +171,8 @@ bool ProbeLaunches::takes_radiosity_samples() const {
 }
 
 void ProbeLaunches::end_other_orders() {
+    if (!radiosity_told_ && request_.at_radiosity) request_.at_radiosity();
+    radiosity_told_ = true;
     for (std::size_t i = first_other_order; i < launches_.size(); ++i) {
         if (launches_[i].over()) continue;
         launches_[i].child.kill_now();

@@ -86,6 +86,7 @@ class ProbeLaunches {
     std::vector<ShortLaunch> launches_;
     std::filesystem::path cache_;  // of the launch in the first order
     int started_ = 0, views_ = 0;
+    bool radiosity_told_ = false;
     double earlier_cpu_seconds_ = 0;
 };
 

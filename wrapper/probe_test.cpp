@@ -4,6 +4,7 @@
 #include "cost_model.h"
 #include "failure.h"
 #include "povray_command.h"
+#include "radiosity_cache.h"
 #include "scene_plan.h"
 #include "scratch.h"
 
@@ -111,6 +112,41 @@ TEST_F(ProbeTest, TouchesNothingOfTheUsers) {
     EXPECT_EQ(read("out.png"), "the last picture");
     EXPECT_EQ(read("out.pov-state"), "a render that can go on");
     EXPECT_FALSE(fs::exists(file("mine.ini")));
+}
+
+TEST_F(ProbeTest, RadiosityIsToldOnceAndItsSamplesAreKept) {
+    const std::string lit = fmt::format(
+        "{}\nplane {{ y, -1 pigment {{ rgb 1 }} }}\n"
+        "global_settings {{ radiosity {{ pretrace_start 0.1 pretrace_end 0.02 }} }}",
+        ball);
+    for (const bool radiosity : {true, false}) {
+        fs::remove_all(file("probe"));
+        int told = 0;
+        const Probe result = run_probe({"povray",
+                                        {write("lit.pov", radiosity ? lit : ball), "+W640", "+H480",
+                                         "+O" + file("out").string()},
+                                        file("probe"),
+                                        60.0,
+                                        [&] { ++told; }});
+        EXPECT_EQ(told, radiosity ? 1 : 0);
+        EXPECT_EQ(result.result.order_dependent, radiosity);
+        EXPECT_EQ(result.radiosity_cache.empty(), !radiosity);
+        RadiosityCache whole;
+        EXPECT_NO_THROW(whole.add(result.radiosity_cache));
+    }
+}
+
+TEST_F(ProbeTest, AUsersRadiosityCacheIsSeenAndLeftAlone) {
+    const std::string scene = write("ball.pov", ball);
+    const std::string cache = "+RF" + file("mine.rca").string();
+    EXPECT_TRUE(probe(scene, {"+RFO", cache}).result.writes_cache);
+    EXPECT_FALSE(fs::exists(file("mine.rca")));
+    fs::remove_all(file("probe"));
+    EXPECT_FALSE(probe(scene).result.writes_cache);
+    fs::remove_all(file("probe"));
+    write("mine.rca", "");
+    EXPECT_TRUE(probe(scene, {"+RFI", cache}).result.own_cache);
+    EXPECT_EQ(read("mine.rca"), "");
 }
 
 TEST_F(ProbeTest, AsksAgainWhereASceneRefusesToBeSmall) {

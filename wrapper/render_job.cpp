@@ -152,7 +152,9 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     std::optional<LoadingImageLibrary> loading;
     if (!options.dry_run) loading.emplace();
     Probe probe =
-        run_probe({options.povray, arguments, scratch.path() / "probe", options.timeout_seconds});
+        run_probe({options.povray, arguments, scratch.path() / "probe", options.timeout_seconds,
+                   // It would take the probe's cores, and radiosity is hardly ever one launch.
+                   stop_early});
     const std::string& povray = probe.povray;
     record.versions["povray"] = povray;
     record.totals.cpu_seconds += probe.cpu_seconds;
