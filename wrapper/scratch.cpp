@@ -15,6 +15,13 @@ ScratchFolder::ScratchFolder(const std::string& purpose) {
     std::error_code error;
     std::filesystem::path base = std::filesystem::temp_directory_path(error);
     if (error) base = "/tmp";
+    // POV-Ray's options have no way to write one.
+    if (base.string().find('"') != std::string::npos)
+        throw Failure(
+            Exit::file,
+            fmt::format("the temporary folder '{}' has a quotation mark in its name, which "
+                        "POV-Ray cannot be told: set TMPDIR to another one",
+                        base.string()));
     std::string name = (base / fmt::format("mpipov-{}-XXXXXX", purpose)).string();
     if (mkdtemp(name.data()) == nullptr)
         throw Failure(Exit::file, fmt::format("cannot make a temporary folder in '{}': {}",

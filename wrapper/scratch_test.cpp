@@ -43,6 +43,21 @@ TEST(Scratch, IsThereAndOursAlone) {
     EXPECT_EQ(rights & (fs::perms::group_all | fs::perms::others_all), fs::perms::none);
 }
 
+TEST(Scratch, AFolderThatPovrayCannotBeToldIsNamed) {
+    const ScratchFolder scratch("quote");
+    const fs::path folder = scratch.path() / "a \"quoted\" name";
+    fs::create_directory(folder);
+    const OtherTemporaryFolder other(folder);
+    try {
+        const ScratchFolder inside("inside");
+        FAIL() << inside.path();
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), Exit::file);
+        EXPECT_THAT(failure.what(), testing::HasSubstr("TMPDIR"));
+    }
+    EXPECT_TRUE(fs::is_empty(folder));
+}
+
 TEST(Scratch, TwoAreNeverTheSame) {
     const ScratchFolder a("same"), b("same");
     EXPECT_NE(a.path(), b.path());
