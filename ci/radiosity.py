@@ -16,6 +16,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from PIL import Image
+
 from program_runs import (ROOT, Skip, argument_parser, fresh_folder, programs_of, report,
                           require_success, run)
 from radiosity_page import page, seams_show
@@ -27,6 +29,7 @@ TIMED = ("independent", "shared", "joined")
 GRIDS = (("columns", 4), ("tiles", 16))
 SIMULATED_RANKS = (2, 8, 64)
 REPEAT = 3
+PICTURED, PICTURE_GAP = "effects/radiosity", 8  # of our own, pixels
 MARK = "<!-- what follows is written by ci/radiosity.py -->"
 
 
@@ -129,6 +132,20 @@ def measure_command(options):
     return 0
 
 
+def write_picture(folder, file):
+    """The columns of the first grid, with samples of their own and with shared ones."""
+    shape, sections = GRIDS[0]
+    images = [Image.open(folder / "grids" / f"{shape}{sections}" /
+                         f"dynamic.np2.{shape}.plain.g{sections}.{sharing}" / "image.png")
+              for sharing in ("independent", "joined")]
+    width, height = images[0].size
+    both = Image.new("RGB", (2 * width + PICTURE_GAP, height), "white")
+    for place, image in enumerate(images):
+        both.paste(image, (place * (width + PICTURE_GAP), 0))
+    file.parent.mkdir(exist_ok=True)
+    both.save(file, optimize=True)
+
+
 def page_command(options):
     found = {}
     for name in SCENES:
@@ -141,6 +158,8 @@ def page_command(options):
     if not found:
         raise Skip(f"nothing in '{options.work}': radiosity.py measure makes it")
     written_by_hand, _, _ = options.page.read_text().partition(MARK)
+    write_picture(options.work / PICTURED.replace("/", "_"),
+                  options.page.parent / options.page.stem / "seams.png")
     options.page.write_text(f"{written_by_hand}{MARK}\n\n{page(found, SIMULATED_RANKS)}")
     print(options.page)
     return 1 if seams_show(found, "joined") else 0
