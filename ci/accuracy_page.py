@@ -46,7 +46,7 @@ def scene_section(name, title, data):
     image = data["image"]
     lines = [f"## {title}", "",
              f"`{shlex.join(data['arguments'])}`, {image['width']} x {image['height']} pixels.", "",
-             f"**{data['sentence']}**" if data["sentence"] else "No law: too few settings differ.",
+             f"**{data['sentence']}**" if data["sentence"] else "No law: the front's errors, as far as the truth tells them, do not span a halving.",
              "", truth_line(data), ""]
     lines += [f"{note[0].upper()}{note[1:]}.\n" for note in data["notes"]]
     lines += [f"![error against time](accuracy/{name}/tradeoff.png)", "",
@@ -102,7 +102,7 @@ def page(found):
     parts = [
         "# Accuracy against time", "",
         "Made by `ci/accuracy.py measure` and `ci/accuracy.py page`: `mpipov-validate tradeoff` of eight "
-        f"scenes, on a shared virtual machine of {host['cores']} cores ({host['cpu']}) that had other "
+        f"scenes, each setting one to three times, on a shared virtual machine of {host['cores']} cores ({host['cpu']}) that had other "
         "things to do. Errors do not depend on that, CPU seconds little, wall seconds much.", "",
         HOW, "", "## All scenes", "", overview(found), "", WHAT, ""]
     parts += [scene_section(name, title, data) for name, (title, data) in found.items()]
@@ -116,11 +116,11 @@ HOW = """## How to read it
   without antialiasing, in linear light, of which, where that is not enough, each pixel is itself
   supersampled; their difference tells the truth's own error (`validate/supersample.h` has the formula,
   [povray.md](povray.md) what it relies on). A measured error is that of the setting and of the truth
-  together (root of the squares): beside a truth that is 30 % off it comes out 5 % too large, beside one
-  that is 65 % off by a third.
+  together (root of the squares): where the truth's own is 30 % of it, it comes out 5 % too large, at 65 %
+  by a third, at 80 % by two thirds.
 - **★ and the line in the plots**: the Pareto front by CPU seconds: no other setting is as fast and as
-  accurate. The dashed line is the law fitted to it. A scene whose parsing, photons or radiosity are most
-  of the time pays little for better antialiasing: its factor is near 1.
+  accurate. The dashed line is the law fitted to it, the truth's own error taken out, and settings left out
+  whose error is less than twice that. Where what is left does not span a halving there is no law.
 - **Against serial**: the distance from one serial render with the same antialiasing; for halo from that in
   one block (`+BS` of the longer side), which is what halo reproduces.
 - Antialiasing is swept by serial renders; depth, threshold, seams and sections are changed one at a time."""
@@ -128,7 +128,7 @@ HOW = """## How to read it
 WHAT = """- **Sections**: aligned ones are the serial render where the scene does not depend on the order of
   rendering, and a halo of 2 is the one in one block, or within a thousandth of a level: cutting costs CPU
   time (each launch parses the scene again) and no accuracy. What plain seams change is less than the error
-  of the antialiasing itself.
+  of the antialiasing itself, but for radiosity.
 - **Radiosity**: its pictures differ from the serial one by more than sections or antialiasing explain, and
   from the truth by as much as the serial one does: what better antialiasing cannot mend is the scene's own
   radiosity. Shared samples bring sections closer to both. The truth is two pictures with caches of their

@@ -46,7 +46,8 @@ std::optional<TradeoffLaw> fit_law(std::span<const TradeoffPoint> front) {
         xx += (log.error - x) * (log.error - x);
         xy += (log.error - x) * (log.seconds - y);
     }
-    if (xx <= 0) return {};
+    const auto [least, largest] = std::ranges::minmax(logs, {}, &TradeoffPoint::error);
+    if (largest.error - least.error < std::log(2.0) * (1 - 1e-12)) return {};
     const double slope = xy / xx;
     TradeoffLaw law;
     law.scale = std::exp(y - slope * x);
@@ -64,6 +65,16 @@ std::optional<TradeoffLaw> fit_law(std::span<const TradeoffPoint> front) {
     law.from = std::exp(high);
     law.to = std::exp(low);
     return law;
+}
+
+std::vector<TradeoffPoint> without_truths_error(std::span<const TradeoffPoint> points,
+                                                double truths_error) {
+    std::vector<TradeoffPoint> own;
+    for (const TradeoffPoint& point : points)
+        if (point.error >= 2 * truths_error)
+            own.push_back({point.seconds,
+                           std::sqrt(point.error * point.error - truths_error * truths_error)});
+    return own;
 }
 
 std::optional<std::size_t> cheapest_within(TradeoffPoints points, double max_error) {

@@ -21,7 +21,7 @@ using TradeoffPoints = std::span<const std::optional<TradeoffPoint>>;
 std::vector<std::size_t> pareto_front(TradeoffPoints points);
 
 // seconds = scale * error^-exponent, by least squares of log seconds over log error. Halving the
-// error then costs 2^exponent times the time.
+// error then costs 2^exponent times the time. Only what spans a halving at least says that.
 struct TradeoffLaw {
     double scale = 0;  // seconds at an error of 1
     double exponent = 0;
@@ -31,8 +31,14 @@ struct TradeoffLaw {
     std::size_t points = 0;
 };
 
-// None from fewer than two different errors above 0.
+// None where the largest error is less than twice the smallest one above 0.
 std::optional<TradeoffLaw> fit_law(std::span<const TradeoffPoint> front);
+
+// The settings' own errors, from errors that were measured against a truth with an error of its
+// own: what is measured is both, as the root of the sum of their squares. Points whose error is
+// less than twice the truth's are left out: what would be left of them is mostly guessed.
+std::vector<TradeoffPoint> without_truths_error(std::span<const TradeoffPoint> points,
+                                                double truths_error);
 
 // The one with the least time of those whose error is at most `max_error`; of equally fast ones the
 // most accurate, of those the first. None where no one is.

@@ -63,6 +63,24 @@ TEST(Law, NeedsTwoDifferentErrorsAboveZero) {
     EXPECT_TRUE(fit_law(std::vector<TradeoffPoint>{{1, 2}, {3, 1}, {9, 0}}));
 }
 
+// A front from 4.67 to 3.71 says nothing of what half of it would cost.
+TEST(Law, NeedsAHalving) {
+    EXPECT_FALSE(fit_law(std::vector<TradeoffPoint>{{1, 4.67}, {2, 4.0}, {4, 3.71}}));
+    EXPECT_FALSE(fit_law(std::vector<TradeoffPoint>{{1, 2}, {4, 1.01}}));
+    EXPECT_TRUE(fit_law(std::vector<TradeoffPoint>{{1, 2}, {4, 1}}));
+}
+
+TEST(Law, TheTruthsOwnErrorIsTakenOut) {
+    const std::vector<TradeoffPoint> measured{{1, 5}, {2, 6}, {3, 5.9}, {4, 100}};
+    const auto own = without_truths_error(measured, 3);
+    ASSERT_EQ(own.size(), 2U);  // 5 and 5.9 are less than twice 3
+    EXPECT_DOUBLE_EQ(own[0].error, std::sqrt(27.0));
+    EXPECT_EQ(own[0].seconds, 2);
+    EXPECT_DOUBLE_EQ(own[1].error, std::sqrt(10000.0 - 9));
+    EXPECT_EQ(without_truths_error(measured, 0).size(), 4U);
+    EXPECT_DOUBLE_EQ(without_truths_error(measured, 0)[0].error, 5);
+}
+
 TEST(Pick, CheapestWithinAnError) {
     const Points points{{{5, 0.5}}, {{1, 4}}, {}, {{2, 2}}, {{2, 1}}};
     EXPECT_EQ(cheapest_within(points, 2), 4U);  // as fast as 3, and more accurate

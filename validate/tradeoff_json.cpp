@@ -1,3 +1,4 @@
+#include "journal.h"
 #include "json_parts.h"
 #include "tradeoff_report.h"
 
@@ -66,7 +67,9 @@ json truth_json(const TradeoffReport& report) {
             {"wanted_share", report.truth_share},
             {"stopped", text_json(report.truth_stopped)},
             {"image", file_json(truth.image, report.folder)},
+            {"image_sha1", sha1_of_file(truth.image)},
             {"other", file_json(truth.other, report.folder)},
+            {"other_sha1", sha1_of_file(truth.other)},
             {"other_averaging_error", number_json(report.other_averaging_error)}};
 }
 
@@ -111,7 +114,7 @@ std::vector<std::optional<TradeoffPoint>> points_of(const TradeoffReport& report
 std::optional<std::size_t> most_accurate(const TradeoffReport& report) {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < report.rows.size(); ++i)
-        if (report.rows[i].truth &&
+        if (report.rows[i].measured() && report.rows[i].truth &&
             (!best || report.rows[i].truth->rms < report.rows[*best].truth->rms))
             best = i;
     return best;
@@ -121,7 +124,7 @@ std::optional<TradeoffLaw> law_of(const TradeoffReport& report, bool wall) {
     const std::vector<std::optional<TradeoffPoint>> points = points_of(report, wall);
     std::vector<TradeoffPoint> front;
     for (const std::size_t at : pareto_front(points)) front.push_back(*points[at]);
-    return fit_law(front);
+    return fit_law(without_truths_error(front, report.truth ? 255 * report.truth->error() : 0));
 }
 
 json to_json(const TradeoffReport& report) {

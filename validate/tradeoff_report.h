@@ -85,7 +85,7 @@ struct TradeoffReport {
 std::vector<std::optional<TradeoffPoint>> points_of(const TradeoffReport& report, bool wall);
 // The smallest error against truth; none where there is none.
 std::optional<std::size_t> most_accurate(const TradeoffReport& report);
-// Of the front by CPU seconds.
+// Of the front by wall or CPU seconds.
 std::optional<TradeoffLaw> law_of(const TradeoffReport& report, bool wall);
 
 nlohmann::json to_json(const TradeoffReport& report);

@@ -1,4 +1,6 @@
 #include "job_identity.h"
+#include "journal.h"
+#include "run_image.h"
 #include "tradeoff_report.h"
 
 #include <fmt/format.h>
@@ -22,6 +24,7 @@ void take_row(TradeoffReport& report, TradeoffRow& row, const json& earlier) {
     const auto wall = earlier.at("wall").get<std::vector<double>>();
     const auto cpu = earlier.at("cpu").get<std::vector<double>>();
     if (image.empty() || wall.empty() || wall.size() != cpu.size()) return;
+    if (pixel_sha1(image) != earlier.at("pixel_sha1")) return;
     row.wall = wall;
     row.cpu = cpu;
     row.image = image;
@@ -37,6 +40,10 @@ void take_truth(TradeoffReport& report, const json& earlier) {
     truth.image = existing(report, earlier.at("image"));
     truth.other = existing(report, earlier.at("other"));
     if (truth.image.empty() || truth.other.empty()) return;
+    // A picture that was cut short, or that is of a run that was killed before it said so here.
+    for (const auto& [file, key] :
+         {std::pair{truth.image, "image_sha1"}, std::pair{truth.other, "other_sha1"}})
+        if (sha1_of_file(file) != earlier.value(key, sha1_of_file(file))) return;
     const auto full_scale = [&](const char* key) { return earlier.at(key).get<double>() / 255; };
     truth.depth = earlier.at("depth").get<int>();
     truth.argv = earlier.at("argv").get<std::vector<std::vector<std::string>>>();

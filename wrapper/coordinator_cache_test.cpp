@@ -71,6 +71,23 @@ TEST(CoordinatorCache, WhatAFailedAttemptSentDoesNotCount) {
         EXPECT_THAT(samples, testing::Not(HasSubstr("garbage")));
 }
 
+TEST(CoordinatorCache, AFullDiskIsAFailureOfFiles) {
+    for (const auto& [why, code] :
+         {std::pair{"disk full", Exit::file}, std::pair{"on purpose", Exit::scene}}) {
+        RigSetup setup = columns(2, 1);
+        setup.gathers = true;
+        setup.worker.fault = [why = std::string(why)](int, const Assignment&) { return why; };
+        Rig rig(setup);
+        try {
+            rig.run();
+            FAIL() << why;
+        } catch (const Failure& failure) {
+            EXPECT_EQ(failure.code(), code) << why;
+            EXPECT_THAT(failure.what(), HasSubstr(why));
+        }
+    }
+}
+
 TEST(CoordinatorCache, PixelsAndSamplesAreNotMistakenForEachOther) {
     for (const bool gathers : {false, true}) {
         RigSetup setup = columns(2, 1);

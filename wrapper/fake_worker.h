@@ -118,7 +118,8 @@ class FakeWorker {
         }
         // Most faults come after the first band, "at once" before it.
         if (!why.empty() && (launch.next_row > render.y0 || why == "at once")) {
-            send(launch, MessageKind::failed, {{"why", why}, {"code", 3}, {"cpu_seconds", 1.0}});
+            send(launch, MessageKind::failed,
+                 {{"why", why}, {"code", why.starts_with("disk") ? 4 : 3}, {"cpu_seconds", 1.0}});
             return true;
         }
         if (gathers_ && launch.next_row < render.y1) {

@@ -1,5 +1,6 @@
 #include "probe_launches.h"
 
+#include "cache_stream.h"
 #include "failure.h"
 #include "interrupt.h"
 #include "povray_text.h"
@@ -210,8 +211,7 @@ std::vector<std::filesystem::path> ProbeLaunches::in_several_orders() const {
 }
 
 std::string ProbeLaunches::radiosity_cache() const {
-    std::ifstream in(cache_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+    return read_new_samples(cache_, 0, radiosity_samples(plain_output()));
 }
 
 double ProbeLaunches::cpu_seconds() const {

@@ -70,6 +70,7 @@ class ProbeLaunches {
     // radiosity: its samples are taken in the order of rendering, and that is known.
     std::vector<std::filesystem::path> in_several_orders() const;
     // The radiosity samples of the first one, as POV-Ray writes them; empty without radiosity.
+    // Throws as read_new_samples().
     std::string radiosity_cache() const;
 
     int count() const { return started_; }  // all that were ever started

@@ -53,9 +53,12 @@ void take_grid(Plan& plan, const Journal& journal, const Options& options) {
         require_same(journal, "--sections", fmt::format("{}", *options.sections),
                      fmt::format("{}", earlier.sections));
     // The plan's own, which is what was asked for as far as the scene calls for it.
-    if (options.radiosity || options.radiosity_scale > 1)
+    if (options.radiosity)
         require_same(journal, "--radiosity", describe(plan.record.radiosity),
                      describe(earlier.radiosity));
+    else if (options.radiosity_scale > 1 && earlier.radiosity.how != Sharing::independent)
+        require_same(journal, "--radiosity-scale", fmt::format("{}", options.radiosity_scale),
+                     fmt::format("{}", earlier.radiosity.scale));
     plan.record.shape = earlier.shape;
     plan.record.seams = earlier.seams;
     plan.record.halo = earlier.halo;

@@ -173,8 +173,8 @@ RadiositySharing choose_sharing(const PlanRequest& request, const ProbeResult& p
     }
     if (probe.writes_cache)
         notes.push_back(
-            "the radiosity cache of the settings (+RFO) is not written: no section has "
-            "all of its samples");
+            "the radiosity cache of the settings (+RFO) is not written: several launches would "
+            "write it one over the other");
     if (probe.own_cache) {
         if (asked)
             notes.push_back(
