@@ -7,6 +7,7 @@ namespace {
 
 // A launch counts as hung after this and so many times what it should take.
 constexpr double timeout_base_seconds = 600, timeout_factor = 50;
+constexpr int gathering_by_lane = 4;  // launches under way for each that computes
 
 JobCommand job_command(const Options& options, const std::vector<std::string>& arguments,
                        const Probe& probe, const Plan& plan) {
@@ -74,6 +75,12 @@ GatherSetup gather_setup(const Options& options, const CoordinatorSetup& job, co
     if (plan.record.radiosity.how == Sharing::joined) setup.first = probe.radiosity_cache;
     setup.timeout_seconds =
         options.timeout_seconds.value_or(automatic_timeout(plan.record.predicted.cpu_seconds));
+    // Launches without antialiasing that read samples are short, and idle half of their time.
+    if (!options.in_flight)
+        for (std::size_t rank = 0; rank < setup.job.in_flight.size(); ++rank)
+            setup.job.in_flight[rank] =
+                std::max(setup.job.in_flight[rank],
+                         gathering_by_lane * std::max(1, plan.slots[rank] / plan.record.threads));
     return setup;
 }
 
