@@ -28,7 +28,7 @@ SHARING = ("independent", "shared", "shared:2", "joined", "joined:3")
 TIMED = ("independent", "shared", "joined")
 GRIDS = (("columns", 4), ("tiles", 16))
 SIMULATED_RANKS = (2, 8, 64)
-REPEAT = 3
+REPEAT = 2
 PICTURED, PICTURE_GAP = "effects/radiosity", 8  # of our own, pixels
 MARK = "<!-- what follows is written by ci/radiosity.py -->"
 

@@ -54,9 +54,11 @@ constexpr std::array rows{
         "one neighbours one after the other; auto: joined where the scene has radiosity",
         "auto", set_radiosity},
     Row{cutting, "radiosity-scale", "N",
-        "samples are gathered at 1/N of the image's width and height", "1",
+        "samples are gathered at 1/N of the image's width and height; auto: 1 with shared, with "
+        "joined so that the longer side has 400 to 800 pixels",
+        "auto",
         [](Options& o, const std::string& v) {
-            o.radiosity_scale = whole(v, 1, "a scale: a whole number from 1");
+            o.radiosity_scale = whole_or_auto(v, "a scale: auto or a whole number from 1");
         }},
     Row{sharing, "schedule", "HOW",
         "static: each rank has its sections from the start; dynamic: the next section goes to "

@@ -22,7 +22,8 @@ struct Options {
     std::optional<Seams> seams;
     int halo = 2;
     std::optional<Sharing> radiosity;
-    int radiosity_passes = 1, radiosity_scale = 1;
+    int radiosity_passes = 1;
+    std::optional<int> radiosity_scale;
     std::optional<int> threads;
     std::optional<int> in_flight;
     std::optional<int> slots;

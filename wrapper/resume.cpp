@@ -56,8 +56,8 @@ void take_grid(Plan& plan, const Journal& journal, const Options& options) {
     if (options.radiosity)
         require_same(journal, "--radiosity", describe(plan.record.radiosity),
                      describe(earlier.radiosity));
-    else if (options.radiosity_scale > 1 && earlier.radiosity.how != Sharing::independent)
-        require_same(journal, "--radiosity-scale", fmt::format("{}", options.radiosity_scale),
+    else if (options.radiosity_scale && earlier.radiosity.how != Sharing::independent)
+        require_same(journal, "--radiosity-scale", fmt::format("{}", *options.radiosity_scale),
                      fmt::format("{}", earlier.radiosity.scale));
     plan.record.shape = earlier.shape;
     plan.record.seams = earlier.seams;

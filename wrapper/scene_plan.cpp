@@ -164,6 +164,13 @@ Choice choose_sections(const PlanRequest& request, const GridRequest& grid, cons
     return choice;
 }
 
+// A pretrace's steps are parts of the image's width: more pixels bring hardly any more samples, and
+// cost as much as they do in the image (docs/radiosity.md). From the image alone, as the grid.
+int scale_to_gather_at(const ImageOptions& image) {
+    constexpr int wide_enough = 400;
+    return std::max(1, std::max(image.width, image.height) / wide_enough);
+}
+
 RadiositySharing choose_sharing(const PlanRequest& request, const ProbeResult& probe, int sections,
                                 std::vector<std::string>& notes) {
     const bool asked = request.radiosity.value_or(Sharing::independent) != Sharing::independent;
@@ -184,7 +191,9 @@ RadiositySharing choose_sharing(const PlanRequest& request, const ProbeResult& p
     const Sharing by_itself = sections > 1 ? Sharing::joined : Sharing::independent;
     const Sharing how = request.radiosity.value_or(by_itself);
     if (how == Sharing::independent) return {};
-    return {how, request.radiosity_passes, request.radiosity_scale};
+    return {how, request.radiosity_passes,
+            request.radiosity_scale.value_or(
+                how == Sharing::joined ? scale_to_gather_at(probe.image) : 1)};
 }
 
 std::vector<WaveShare> shares_of(const std::vector<GatherWave>& waves, const Rect& region) {

@@ -21,7 +21,8 @@ struct PlanRequest {
     int halo = 2;
     std::optional<int> sections;
     std::optional<Sharing> radiosity;  // empty: auto
-    int radiosity_passes = 1, radiosity_scale = 1;
+    int radiosity_passes = 1;
+    std::optional<int> radiosity_scale;  // empty: auto
     Policy schedule = Policy::dynamic;
     std::optional<int> threads;
     std::optional<int> in_flight;

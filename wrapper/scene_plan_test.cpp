@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
 
 namespace mpipov {
 namespace {
@@ -262,6 +263,23 @@ TEST(ScenePlan, RadiosityIsSharedAsAskedFor) {
     EXPECT_EQ(plan.record.radiosity, (RadiositySharing{Sharing::shared, 3, 2}));
     ASSERT_EQ(plan.waves.size(), 3U);
     EXPECT_EQ(plan.waves[0].image.width, 320);
+}
+
+TEST(ScenePlan, SamplesOfLargeImagesAreGatheredSmall) {
+    for (const auto& [width, height, scale] : {std::tuple{320, 240, 1},
+                                               {799, 300, 1},
+                                               {800, 600, 2},
+                                               {300, 1600, 4},
+                                               {8000, 6000, 20}}) {
+        const ProbeResult probe = with_radiosity(scene(width, height, 60));
+        PlanRequest request = ranks({2});
+        EXPECT_EQ(make_plan(request, probe).record.radiosity.scale, scale) << width;
+        request.radiosity = Sharing::shared;
+        EXPECT_EQ(make_plan(request, probe).record.radiosity.scale, 1);
+        request.radiosity = Sharing::joined;
+        request.radiosity_scale = 1;
+        EXPECT_EQ(make_plan(request, probe).record.radiosity.scale, 1);
+    }
 }
 
 TEST(ScenePlan, OneSectionHasNobodyToShareWith) {
