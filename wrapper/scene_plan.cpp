@@ -23,6 +23,8 @@ constexpr double longest_section_seconds = 60;
 constexpr double least_section_cpu = 0.5;
 // The grid of a scene whose pixels depend on the grid comes from the image alone.
 constexpr double pinned_section_pixels = 40000;
+// With radiosity a section is launched twice, and reads a cache.
+constexpr double pinned_radiosity_pixels = 100000;
 constexpr int fewest_pinned = 4, most_pinned = 64;
 
 int clamp_to(long long value, long long low, long long high) {
@@ -123,7 +125,7 @@ void check_bounds_of_mpipov2(const PlanRequest& request, int ranks, int width) {
 
 // How many sections, and launches of how many threads.
 Choice choose_sections(const PlanRequest& request, const GridRequest& grid, const CostModel& cost,
-                       const Cores& cores, bool pinned) {
+                       const Cores& cores, bool pinned, bool radiosity) {
     const long long most = most_sections(grid, request.shape.value_or(Shape::tiles));
     // With a halo a launch renders its section as one block, and threads share whole blocks.
     const bool one_thread = grid.seams == Seams::halo;
@@ -134,7 +136,8 @@ Choice choose_sections(const PlanRequest& request, const GridRequest& grid, cons
         return {*request.sections, threads, 0};
     }
     if (pinned) {
-        const double wanted = static_cast<double>(grid.region.area()) / pinned_section_pixels;
+        const double wanted = static_cast<double>(grid.region.area()) /
+                              (radiosity ? pinned_radiosity_pixels : pinned_section_pixels);
         return {clamp_to(std::llround(wanted), std::min<long long>(fewest_pinned, most),
                          std::min<long long>(most_pinned, most)),
                 threads, 0};
@@ -232,7 +235,8 @@ Plan make_plan(const PlanRequest& request, const ProbeResult& given) {
     grid.halo = grid.seams == Seams::halo ? request.halo : 0;
 
     Cores cores = count_cores(request.slots);
-    const Choice choice = choose_sections(request, grid, cost, cores, pinned);
+    const Choice choice =
+        choose_sections(request, grid, cost, cores, pinned, probe.report.radiosity);
     if (choice.pooled) cores = pooled_cores(request);
     plan.slots = cores.slots;
     if (pinned && choice.threads > 1)

@@ -265,6 +265,13 @@ TEST(ScenePlan, RadiosityIsSharedAsAskedFor) {
     EXPECT_EQ(plan.waves[0].image.width, 320);
 }
 
+TEST(ScenePlan, RadiosityHasFewerAndLargerSections) {
+    const Plan jitter = make_plan(ranks({2}), order_dependent(scene(1600, 1200, 60)));
+    const Plan lit = make_plan(ranks({2}), with_radiosity(scene(1600, 1200, 60)));
+    EXPECT_EQ(jitter.record.sections, 48);
+    EXPECT_EQ(lit.record.sections, 19);
+}
+
 TEST(ScenePlan, SamplesOfLargeImagesAreGatheredSmall) {
     for (const auto& [width, height, scale] : {std::tuple{320, 240, 1},
                                                {799, 300, 1},
