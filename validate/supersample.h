@@ -6,11 +6,12 @@
 // curve (IEC 61966-2-1) and clipped to 0..1, as POV-Ray encodes a PNG.
 //
 // Its own error. The truth is made of two pictures A and B of a x a and b x b samples a pixel that
-// share hardly any sample, weighted by their numbers: T = (a^2 A + b^2 B) / (a^2 + b^2). Where a sample's
-// variance is v, that of T is v / (a^2 + b^2) and that of A - B is v (1/a^2 + 1/b^2): the error of
-// T is a b / (a^2 + b^2) times the RMS of A - B. That holds exactly where samples are independent
-// (jitter, focal blur, two radiosity caches); on an edge or a slope, where the error of a grid goes
-// with a higher power of its samples, with a = 8 and b = 10 it still does within a tenth.
+// share hardly any sample, weighted by their numbers: T = (a^2 A + b^2 B) / (a^2 + b^2). Where a
+// sample's variance is v, that of T is v / (a^2 + b^2) and that of A - B is v (1/a^2 + 1/b^2): the
+// error of T is a b / (a^2 + b^2) times the RMS of A - B. That holds exactly where samples are
+// independent (jitter, focal blur, two radiosity caches); on an edge or a slope, where the error of
+// a grid goes with a higher power of its samples, with a = 8 and b = 10 it still does within a
+// tenth.
 #pragma once
 
 #include <span>
