@@ -1,5 +1,7 @@
 #include "render_options.h"
 
+#include "option_values.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,6 +39,20 @@ std::vector<std::string> split_list(const std::string& option, const std::string
         from = to + 1;
     }
     return pieces;
+}
+
+std::vector<std::string> split_radiosity(const std::string& text, bool scales) {
+    const std::vector<std::string> all = each_once(split_list("--radiosity", text));
+    for (const std::string& piece : all) try {
+            Options ignored;
+            const std::size_t slash = scales ? piece.find('/') : std::string::npos;
+            set_radiosity(ignored, piece.substr(0, slash));
+            if (slash != std::string::npos)
+                whole(piece.substr(slash + 1), 1, "a scale: a whole number from 1");
+        } catch (const Failure& failure) {
+            throw Failure(Exit::usage, fmt::format("--radiosity: {}", failure.what()));
+        }
+    return all;
 }
 
 std::vector<int> split_numbers(const std::string& option, const std::string& text) {

@@ -61,6 +61,10 @@ std::vector<Enum> split_names(const std::string& option, const std::string& text
 // All that mpipov's --schedule takes.
 inline const std::vector<Policy> schedules{Policy::static_, Policy::dynamic, Policy::cost};
 
+// A list of what mpipov's --radiosity takes, each once; with `scales` also "joined:1/4", whose
+// number behind the slash is --radiosity-scale's. Throws as split_list.
+std::vector<std::string> split_radiosity(const std::string& text, bool scales);
+
 // Whole numbers from 1.
 std::vector<int> split_numbers(const std::string& option, const std::string& text);
 

@@ -1,6 +1,5 @@
 #include "seams_command.h"
 
-#include "option_values.h"
 #include "render_options.h"
 #include "seams_run.h"
 #include "shipped_file.h"
@@ -45,17 +44,6 @@ std::vector<SeamKind> seams_of(const std::string& text) {
     return kinds;
 }
 
-std::vector<std::string> radiosity_of(const std::string& text) {
-    const std::vector<std::string> all = split_list("--radiosity", text);
-    for (const std::string& piece : all) try {
-            Options ignored;
-            set_radiosity(ignored, piece);
-        } catch (const Failure& failure) {
-            throw Failure(Exit::usage, fmt::format("--radiosity: {}", failure.what()));
-        }
-    return all;
-}
-
 Exit run(const CLI::App& app, const SeamsOptions& options) {
     SeamsRequest request;
     request.arguments = povray_arguments(app);
@@ -64,7 +52,7 @@ Exit run(const CLI::App& app, const SeamsOptions& options) {
     request.shapes = each_once(split_names("--shape", options.shape, shapes));
     request.seams = each_once(seams_of(options.seams));
     request.sections = each_once(split_numbers("--sections", options.sections));
-    request.radiosity = each_once(radiosity_of(options.radiosity));
+    request.radiosity = split_radiosity(options.radiosity, false);
     request.renders = options.renders;
     request.serial = options.serial;
     request.povray = options.povray;

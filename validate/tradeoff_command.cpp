@@ -1,6 +1,5 @@
 #include "tradeoff_command.h"
 
-#include "option_values.h"
 #include "python_script.h"
 #include "render_options.h"
 #include "shipped_file.h"
@@ -59,21 +58,6 @@ std::vector<double> thresholds_of(const std::string& text) {
     return thresholds;
 }
 
-// "shared:2/4": as --radiosity of mpipov, and behind the slash as --radiosity-scale.
-std::vector<std::string> radiosity_of(const std::string& text) {
-    const std::vector<std::string> all = each_once(split_list("--radiosity", text));
-    for (const std::string& piece : all) try {
-            Options ignored;
-            const std::size_t slash = piece.find('/');
-            set_radiosity(ignored, piece.substr(0, slash));
-            if (slash != std::string::npos)
-                whole(piece.substr(slash + 1), 1, "a scale: a whole number from 1");
-        } catch (const Failure& failure) {
-            throw Failure(Exit::usage, fmt::format("--radiosity: {}", failure.what()));
-        }
-    return all;
-}
-
 TradeoffChoice choice_of(const TradeoffOptions& options) {
     constexpr int most = 100000, deepest = 9;
     TradeoffChoice choice;
@@ -85,7 +69,7 @@ TradeoffChoice choice_of(const TradeoffOptions& options) {
     choice.sections = sorted_numbers("--sections", options.sections, most);
     choice.halos = sorted_numbers("--halos", options.halos, most);
     choice.threads = sorted_numbers("--threads", options.threads, most);
-    choice.radiosity = radiosity_of(options.radiosity);
+    choice.radiosity = split_radiosity(options.radiosity, true);
     choice.ranks = options.ranks;
     return choice;
 }

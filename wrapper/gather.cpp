@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -61,18 +60,12 @@ std::string gather_radiosity(const GatherSetup& setup, const GatherContext& cont
         }
         // In the order of the sections, whichever ended first.
         for (const std::string& samples : coordinator.samples()) cache.add(samples);
-        RunRecord of_wave;
-        coordinator.fill(of_wave);
+        // Totals and warnings add up; the rest of it is the image's in the end.
+        coordinator.fill(record);
         record.waves.push_back(
-            {wave.image.width, wave.image.height, cache.samples(), std::move(of_wave.sections)});
-        record.totals.launches += of_wave.totals.launches;
-        record.totals.retries += of_wave.totals.retries;
-        record.totals.cpu_seconds += of_wave.totals.cpu_seconds;
-        for (const std::string& warning : of_wave.warnings)
-            if (std::ranges::find(record.warnings, warning) == record.warnings.end())
-                record.warnings.push_back(warning);
+            {wave.image.width, wave.image.height, cache.samples(), std::move(record.sections)});
         for (std::size_t rank = 0; rank < ranks.size(); ++rank)
-            ranks[rank].busy_seconds = of_wave.ranks[rank].busy_seconds;
+            ranks[rank].busy_seconds = record.ranks[rank].busy_seconds;
         if (context.journal != nullptr)
             context.journal->keep_cache(static_cast<int>(i) + 1, cache.text());
     }

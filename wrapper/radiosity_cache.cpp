@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <vector>
 
 namespace mpipov {
 namespace {
@@ -22,7 +21,7 @@ bool is_sample(std::string_view line) {
 
 }  // namespace
 
-void RadiosityCache::add(std::string_view text) {
+std::vector<std::string_view> samples_of(std::string_view text) {
     std::vector<std::string_view> lines;
     while (!text.empty()) {
         const auto end = text.find('\n');
@@ -35,7 +34,11 @@ void RadiosityCache::add(std::string_view text) {
         lines.push_back(line);
         text.remove_prefix(end + 1);
     }
-    for (const std::string_view line : lines)
+    return lines;
+}
+
+void RadiosityCache::add(std::string_view text) {
+    for (const std::string_view line : samples_of(text))
         if (known_.emplace(line).second) (text_ += line) += '\n';
 }
 

@@ -6,8 +6,12 @@
 #include <string>
 #include <string_view>
 #include <unordered_set>
+#include <vector>
 
 namespace mpipov {
+
+// The lines of such a file. Throws std::runtime_error where one is no sample, or is cut short.
+std::vector<std::string_view> samples_of(std::string_view text);
 
 class RadiosityCache {
   public:

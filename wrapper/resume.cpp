@@ -86,13 +86,12 @@ Failure end_of_run(const std::exception& error, Journal* journal, const Coordina
     Failure failure = as_failure(error);
     const int done = coordinator != nullptr ? coordinator->sections_done() : 0;
     if (journal == nullptr) return failure;
-    const int waves = journal->cache().waves;
     if (done > 0)
         return {failure.code(),
                 fmt::format("{}; {} of {} sections are kept in '{}': go on with --resume",
                             failure.what(), done, coordinator->sections_total(),
                             journal->folder().string())};
-    if (waves > 0)
+    if (const int waves = journal->cache().waves; waves > 0)
         return {
             failure.code(),
             fmt::format("{}; the radiosity cache of {} wave{} is kept in '{}': go on with "

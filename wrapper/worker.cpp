@@ -92,18 +92,8 @@ void Worker::start(const Message& message) {
     const int attempt = message.head.at("attempt");
     try {
         PreparedLaunch prepared = launch(section, attempt);
-        launches_.push_back({section,
-                             attempt,
-                             std::move(prepared.folder),
-                             std::move(prepared.child),
-                             {},
-                             std::nullopt,
-                             std::nullopt,
-                             0,
-                             {},
-                             Exit::scene,
-                             0,
-                             false});
+        launches_.push_back(
+            {section, attempt, std::move(prepared.folder), std::move(prepared.child)});
     } catch (const std::exception& error) {
         const bool disk = dynamic_cast<const std::filesystem::filesystem_error*>(&error) != nullptr;
         transport_.send({MessageKind::failed,
@@ -168,11 +158,10 @@ Worker::State Worker::step(Launch& launch) {
     try {
         if (launch.cancelled) return end_cancelled(launch);
         if (!launch.broken.empty()) return end_broken(launch);
-        if (launch.reader) return send_bands(launch);
-        if (launch.samples) return send_samples(launch);
+        if (launch.sends()) return send_more(launch);
         if (launch.child.poll() ||
             launch.end.seen(launch.child, launch.folder.path() / section_image_name))
-            return gathers_ ? begin_sending_samples(launch) : begin_reading(launch);
+            return begin_reading(launch);
         send_progress(launch);
         return State::idle;
     } catch (const std::exception& error) {
@@ -217,40 +206,30 @@ Worker::State Worker::begin_reading(Launch& launch) {
         send_failure(launch, describe_end(launch.child), Exit::scene);
         return State::over;
     }
-    launch.reader.emplace(find_image(launch.folder.path() / section_image_name), image_.width,
-                          image_.height, launch.section.render, max_band_bytes);
+    if (gathers_)
+        launch.samples = read_new_samples(launch.folder.path() / section_cache_name, cache_.bytes(),
+                                          radiosity_samples(launch.child.output()));
+    else
+        launch.reader.emplace(find_image(launch.folder.path() / section_image_name), image_.width,
+                              image_.height, launch.section.render, max_band_bytes);
     return State::busy;
 }
 
-Worker::State Worker::begin_sending_samples(Launch& launch) {
-    if (launch.child.ended() && launch.child.result().exit_code != 0) {
-        send_failure(launch, describe_end(launch.child), Exit::scene);
-        return State::over;
+// No more than two whole bands under way: the coordinator sets the pace.
+Worker::State Worker::send_more(Launch& launch) {
+    if (transport_.unsent_bytes() > max_band_bytes + max_band_bytes / 2) return State::idle;
+    nlohmann::json head = head_of(launch);
+    if (launch.samples) {
+        auto piece = next_piece(*launch.samples, launch.samples_sent);
+        if (!piece) return send_done(launch);
+        transport_.send({MessageKind::cache, coordinator, std::move(head), *std::move(piece)});
+        return State::busy;
     }
-    launch.samples = read_new_samples(launch.folder.path() / section_cache_name, cache_.bytes(),
-                                      radiosity_samples(launch.child.output()));
+    std::optional<Band> band = launch.reader->next();
+    if (!band) return send_done(launch);
+    head["rect"] = rect_to_json(band->rect);
+    transport_.send({MessageKind::band, coordinator, std::move(head), std::move(band->pixels)});
     return State::busy;
-}
-
-Worker::State Worker::send_samples(Launch& launch) {
-    if (transport_.unsent_bytes() > max_band_bytes + max_band_bytes / 2) return State::idle;
-    if (auto piece = next_piece(*launch.samples, launch.samples_sent)) {
-        transport_.send({MessageKind::cache, coordinator, head_of(launch), *std::move(piece)});
-        return State::busy;
-    }
-    return send_done(launch);
-}
-
-Worker::State Worker::send_bands(Launch& launch) {
-    // No more than two whole bands under way: the coordinator sets the pace.
-    if (transport_.unsent_bytes() > max_band_bytes + max_band_bytes / 2) return State::idle;
-    if (std::optional<Band> band = launch.reader->next()) {
-        nlohmann::json head = head_of(launch);
-        head["rect"] = rect_to_json(band->rect);
-        transport_.send({MessageKind::band, coordinator, std::move(head), std::move(band->pixels)});
-        return State::busy;
-    }
-    return send_done(launch);
 }
 
 Worker::State Worker::send_done(const Launch& launch) {
@@ -282,7 +261,7 @@ void Worker::send_failure(const Launch& launch, const std::string& why, Exit cod
 
 void Worker::add_poll_fds(std::vector<pollfd>& fds) const {
     for (const Launch& launch : launches_) {
-        if (!launch.reader && !launch.samples) launch.child.add_poll_fds(fds);
+        if (!launch.sends()) launch.child.add_poll_fds(fds);
     }
     for (const PreparedLaunch& launch : leaving_) launch.child.add_poll_fds(fds);
 }
@@ -290,8 +269,7 @@ void Worker::add_poll_fds(std::vector<pollfd>& fds) const {
 int Worker::wait_milliseconds(int at_most) const {
     int wait = at_most;
     for (const Launch& launch : launches_) {
-        wait =
-            std::min(wait, launch.reader || launch.samples ? 1 : launch.child.wait_milliseconds());
+        wait = std::min(wait, launch.sends() ? 1 : launch.child.wait_milliseconds());
         if (launch.end.near()) wait = std::min(wait, near_end_milliseconds);
     }
     return std::max(wait, 0);

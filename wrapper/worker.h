@@ -54,14 +54,17 @@ class Worker {
         int attempt = 0;
         LaunchFolder folder;  // before the child, which must be gone when it is removed
         ChildProcess child;
-        EndOfWork end;
-        std::optional<SectionReader> reader;  // once POV-Ray has done its work
-        std::optional<std::string> samples;   // the same, where it gathers
+        EndOfWork end = {};
+        // Once POV-Ray has done its work, one of them: its image, or the samples that it gathered.
+        std::optional<SectionReader> reader = {};
+        std::optional<std::string> samples = {};
         std::size_t samples_sent = 0;
-        std::string broken;       // why what it made could not be read; it has not ended
+        std::string broken = {};  // why what it made could not be read; it has not ended
         Exit code = Exit::scene;  // what that is
         double last_fraction = 0;
         bool cancelled = false;  // another rank was first
+
+        bool sends() const { return reader || samples; }
     };
     enum class State { busy, idle, over };
 
@@ -72,10 +75,8 @@ class Worker {
     void cancel(const Message& message);
     State end_cancelled(Launch& launch);
     State begin_reading(Launch& launch);
-    State begin_sending_samples(Launch& launch);
     State end_broken(Launch& launch);
-    State send_bands(Launch& launch);
-    State send_samples(Launch& launch);
+    State send_more(Launch& launch);
     State send_done(const Launch& launch);
     void send_progress(Launch& launch);
     void send_failure(const Launch& launch, const std::string& why, Exit code);
