@@ -230,6 +230,7 @@ void ChildProcess::State::begin_termination() {
 void ChildProcess::State::enforce_deadlines() {
     if (!kill_at_ && timeout_ && elapsed() >= *timeout_) {
         result_.timed_out = true;
+        result_.timeout_seconds = *timeout_;
         begin_termination();
     }
     if (kill_at_ && !killed_ && elapsed() >= *kill_at_) {

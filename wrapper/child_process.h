@@ -43,6 +43,7 @@ struct ChildResult {
     std::optional<int> exit_code;  // 127: the program could not be started, see the output
     std::optional<int> signal;     // that ended it
     bool timed_out = false;        // it got TERM because its time was up
+    double timeout_seconds = 0;    // that time, where it was
     bool cancelled = false;        // terminate() or kill_now() was called
     double wall_seconds = 0;       // from start() until poll() saw the end
     double cpu_seconds = 0;        // user + system, of the child and of what it waited for

@@ -2,6 +2,7 @@
 
 #include "child_process.h"
 #include "failure.h"
+#include "launch_failure.h"
 #include "probe_launches.h"
 
 #include <fmt/format.h>
@@ -124,8 +125,11 @@ std::string check_resolved(const ProbeLaunches& launches, const ProbeRequest& re
         throw Failure(Exit::usage, fmt::format("POV-Ray: {}; it was given: {}", parse_error(text),
                                                fmt::join(request.user_arguments, " ")));
     std::string version = checked_version(request.povray, !launches.started(), text);
-    if (!launches.resolved())
-        throw Failure(Exit::scene, fmt::format("POV-Ray: {}", parse_error(text)));
+    if (!launches.resolved()) {
+        const LaunchFailure failure = blame_full_disk(
+            {fmt::format("POV-Ray: {}", parse_error(text))}, request.scratch, frame_bytes(0, 0));
+        throw Failure(failure.code, failure.why);
+    }
     return version;
 }
 

@@ -3,6 +3,7 @@
 #include "cache_stream.h"
 #include "failure.h"
 #include "interrupt.h"
+#include "launch_failure.h"
 #include "povray_text.h"
 #include "probe.h"
 #include "worker.h"
@@ -234,11 +235,11 @@ void ProbeLaunches::start(const std::string& name, const std::vector<std::string
 }
 
 std::filesystem::path ProbeLaunches::image_of(const ShortLaunch& launch) {
-    if (!launch.succeeded())
-        throw Failure(Exit::scene,
-                      launch.timed_out()
-                          ? "POV-Ray did not end a small render in time (--timeout)"
-                          : fmt::format("POV-Ray: {}", parse_error(launch.child.output())));
+    if (!launch.succeeded()) {
+        LaunchFailure failure =
+            launch_failure(launch.child, launch.base.parent_path(), frame_bytes(0, 0));
+        throw Failure(failure.code, failure.why);
+    }
     return find_image(launch.base);
 }
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
@@ -14,18 +13,6 @@ namespace mpipov {
 namespace {
 
 constexpr int coordinator = 0;
-
-std::string describe_end(const ChildProcess& child) {
-    const ChildResult& result = child.result();
-    if (result.timed_out)
-        return fmt::format("POV-Ray did not end within {:.0f} s (--timeout)", result.wall_seconds);
-    if (result.signal) {
-        const char* name = ::sigabbrev_np(*result.signal);
-        return fmt::format("POV-Ray was ended by signal {} (SIG{})", *result.signal,
-                           name != nullptr ? name : "?");
-    }
-    return fmt::format("POV-Ray: {}", parse_error(child.output()));
-}
 
 }  // namespace
 
@@ -177,9 +164,12 @@ Worker::State Worker::step(Launch& launch) {
 // Where POV-Ray could not write its file it has not said so yet, and knows better why.
 Worker::State Worker::end_broken(Launch& launch) {
     if (!launch.child.poll()) return State::idle;
-    const bool ours = launch.child.result().exit_code == 0;
-    send_failure(launch, ours ? launch.broken : describe_end(launch.child),
-                 ours ? launch.code : Exit::scene);
+    // POV-Ray may also end well though its file had no room.
+    send_failure(launch, launch.child.result().exit_code == 0
+                             ? blame_full_disk({launch.broken, launch.code}, launch.folder.path(),
+                                               frame_bytes(image_.width, image_.height))
+                             : launch_failure(launch.child, launch.folder.path(),
+                                              frame_bytes(image_.width, image_.height)));
     return State::over;
 }
 
@@ -203,7 +193,8 @@ Worker::State Worker::end_cancelled(Launch& launch) {
 
 Worker::State Worker::begin_reading(Launch& launch) {
     if (launch.child.ended() && launch.child.result().exit_code != 0) {
-        send_failure(launch, describe_end(launch.child), Exit::scene);
+        send_failure(launch, launch_failure(launch.child, launch.folder.path(),
+                                            frame_bytes(image_.width, image_.height)));
         return State::over;
     }
     if (gathers_)
@@ -251,10 +242,10 @@ void Worker::send_progress(Launch& launch) {
     transport_.send({MessageKind::progress, coordinator, std::move(head), {}});
 }
 
-void Worker::send_failure(const Launch& launch, const std::string& why, Exit code) {
+void Worker::send_failure(const Launch& launch, const LaunchFailure& failure) {
     nlohmann::json head = head_of(launch);
-    head["why"] = why;
-    head["code"] = static_cast<int>(code);
+    head["why"] = failure.why;
+    head["code"] = static_cast<int>(failure.code);
     head["cpu_seconds"] = launch.child.ended() ? launch.child.result().cpu_seconds : 0.0;
     transport_.send({MessageKind::failed, coordinator, std::move(head), {}});
 }

@@ -8,6 +8,7 @@
 #include "end_of_work.h"
 #include "failure.h"
 #include "image_file.h"
+#include "launch_failure.h"
 #include "povray_command.h"
 #include "prepared_launch.h"
 #include "section.h"
@@ -79,7 +80,7 @@ class Worker {
     State send_more(Launch& launch);
     State send_done(const Launch& launch);
     void send_progress(Launch& launch);
-    void send_failure(const Launch& launch, const std::string& why, Exit code);
+    void send_failure(const Launch& launch, const LaunchFailure& failure);
     nlohmann::json head_of(const Launch& launch) const;
 
     Transport& transport_;

@@ -1,0 +1,38 @@
+// Why a launch of POV-Ray that has ended did not work out, for the user: its time was up, a signal,
+// or else POV-Ray's own words; and whether it may have been the disk.
+#pragma once
+
+#include "child_process.h"
+#include "failure.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace mpipov {
+
+struct LaunchFailure {
+    std::string why;
+    Exit code = Exit::scene;  // Exit::file: the disk
+};
+
+// `folder` is where the launch wrote its files, `frame_bytes` what those may take: of a file that
+// it has no room for POV-Ray says "Cannot access data in file." and removes it, so the disk is
+// asked.
+LaunchFailure launch_failure(const ChildProcess& child, const std::filesystem::path& folder,
+                             std::uintmax_t frame_bytes);
+
+// The same failure where there is room for the frame, and else one of the disk that names both.
+LaunchFailure blame_full_disk(LaunchFailure failure, const std::filesystem::path& folder,
+                              std::uintmax_t frame_bytes);
+
+// The most that a frame of POV-Ray's takes in any file type, bytes.
+constexpr std::uintmax_t frame_bytes(int width, int height) {
+    constexpr std::uintmax_t bytes_per_pixel = 16;  // four floats
+    constexpr std::uintmax_t header_bytes = 16 << 10;
+    return static_cast<std::uintmax_t>(width) * static_cast<std::uintmax_t>(height) *
+               bytes_per_pixel +
+           header_bytes;
+}
+
+}  // namespace mpipov
