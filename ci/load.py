@@ -60,7 +60,9 @@ class Watch:
         ranks, most = set(), 0
         for process in Path("/proc").glob("[0-9]*"):
             try:
-                if Path(os.readlink(process / "exe")) == started:
+                parent = Path("/proc") / status_of(process, "PPid")
+                # Not a launch that is about to become the guard: it shows its rank's memory as its own.
+                if Path(os.readlink(process / "exe")) == started != Path(os.readlink(parent / "exe")):
                     ranks.add(process.name)
                     self.peaks[process.name] = int(status_of(process, "VmHWM") or 0) << 10
                     most = max(most, len(os.listdir(process / "fd")))
