@@ -19,6 +19,8 @@ mesh {
   triangle { <0.5, 0.5, -1>, <0.5, 0.5, -1>, <0.5, 0.5, -1> }
   pigment { color srgb <0.86, 0.36, 0.3> }
 }
+triangle { <-1, 1, 0>, <1, 1, 0>, <0, 1, 0> pigment { color rgb 1 } }
+
 // The same faces three times, once turned over, with other colours.
 #declare Corners = array[4] { <0.2, -0.5, 0.4>, <2.2, -0.5, -0.4>, <2.1, 1.3, 0.1>, <0.3, 1.2, 0.6> };
 mesh {

@@ -1,10 +1,11 @@
-// Hard: polynomials of degree 4 to 7 with double roots and singular points, as Sturm asks or not.
+// Hard: polynomials of degree 3 to 6 with double roots and singular points, seen from afar; with Sturm=1 by `sturm`.
 #version 3.7;
 global_settings { assumed_gamma 1.0 }
 #default { finish { ambient 0.15 diffuse 0.7 specular 0.3 } }
 
 #ifndef (Sturm) #declare Sturm = no; #end
-camera { location <0, 1.4, -8> look_at <0, -0.1, 0> angle 42 }
+// From afar the coefficients are large, and what tells the roots apart lies in their last digits.
+camera { location <0, 37.4, -200> look_at <0, -0.1, 0> angle 1.68 }
 light_source { <-5, 8, -8> color srgb <1, 0.96, 0.9> }
 background { color srgb <0.6, 0.74, 0.86> }
 
@@ -41,7 +42,7 @@ polynomial {
   rotate -90 * x rotate 30 * y scale 0.8 translate <2.3, 0.6, 0>
 }
 // Thin tori, a lathe and a prism of cubic splines: the solvers that users meet.
-torus { 0.7, 0.004 Solver() pigment { color srgb <0.3, 0.3, 0.4> } rotate 80 * x translate <0, -1.2, 0> }
+torus { 0.4, 0.01 Solver() pigment { color srgb <0.3, 0.3, 0.4> } rotate 70 * x translate <1.1, -0.6, 0> }
 torus { 0.4, 0.39 Solver() pigment { color srgb <0.3, 0.6, 0.5> } rotate 75 * x translate <0, -1.2, 0> }
 lathe {
   cubic_spline 6, <0.5, -0.4>, <0.3, 0>, <0.7, 0.3>, <0.2, 0.7>, <0.02, 1>, <0, 1.4>
