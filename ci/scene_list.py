@@ -1,4 +1,4 @@
-"""The scenes of our own, as scenes.json lists them; for the test scripts beside this file."""
+"""The scenes of our own, as scenes.json and hard.json list them; for the scripts beside this file."""
 
 import json
 import re
@@ -39,6 +39,27 @@ def all_scenes():
                   tuple(one["options"]), one["effects"], one["order_dependent"],
                   one["serial_seconds"], one.get("rare_pixels", False))
             for one in listed]
+
+
+@dataclass(frozen=True)
+class HardScene(Scene):
+    hard: str  # what is, in a sentence: the scene's first line
+    limit_seconds: float  # of wall clock, for one run of mpipov on a busy machine
+    not_finite: bool  # its EXR file holds infinities, or what is no number
+    output: tuple  # png8, png16, exr
+
+
+def hard_scenes():
+    """Those of scenes/hard, whose tests are hard_cases.py's."""
+    scenes = []
+    for one in json.loads((FOLDER / "hard.json").read_text())["scenes"]:
+        first = (FOLDER / one["file"]).read_text().partition("\n")[0]
+        scenes.append(HardScene(
+            one["name"].replace("/", "."), FOLDER / one["file"], tuple(one["size"]),
+            tuple(one["options"]), one["effects"], one["order_dependent"], one["serial_seconds"],
+            one.get("rare_pixels", False), first.removeprefix("// Hard: "), one["limit_seconds"],
+            one.get("not_finite", False), tuple(one["output"])))
+    return scenes
 
 
 def scene_named(name, scenes=None):
