@@ -18,7 +18,8 @@ std::string way_of(CameraWay way) {
             return "the camera's place times 1 + move";
         case CameraWay::shift:
             return "the camera shifted by so much of a unit of the scene: it is at the origin, or "
-                   "the picture does not depend on where along the line to the origin it is";
+                   "the "
+                   "picture is the same from anywhere on the line to the origin";
         case CameraWay::declared:
             break;
     }
@@ -55,7 +56,8 @@ std::string to_table(const StabilityReport& report) {
     if (found.verdict)
         fmt::format_to(out, "\n{}: {}\n", to_string(found.verdict->kind), found.verdict->why);
     if (found.control && found.control->comparison.identical())
-        fmt::format_to(out, "The picture does not depend on where the camera is.\n");
+        fmt::format_to(out, "Not even a move of {} changes the picture.\n",
+                       move_text(found.control->move));
     fmt::format_to(out,
                    "\nMoved: {}. answering: pixels that change by more than one level of 255. "
                    "amplification: RMS as part of full scale, divided by the move.\n",
