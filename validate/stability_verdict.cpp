@@ -12,6 +12,10 @@ bool too_many(const MoveAnswered& answer, long long pixels) {
     return answer.answering * one_may_answer_in > pixels;
 }
 
+// Random numbers dealt anew change a picture as much as another order does; of that there are a few
+// renders only, and none of them is the most that it can be.
+constexpr double most_by_chance = 2;
+
 bool is_nothing(const MoveAnswered& answer) {
     return answer.move <= next_to_nothing;
 }
@@ -89,7 +93,7 @@ ConditioningVerdict judge_conditioning(const ConditioningFacts& facts) {
                 verdict.why +
                     ", but the scene depends on the order of rendering, and too few different "
                     "serial renders exist to tell that apart"};
-    if (mean > *facts.noise) return verdict;
+    if (mean > most_by_chance * *facts.noise) return verdict;
     return {Conditioning::untold,
             fmt::format("{}, by {:.3g} in the mean, and by up to {:.3g} where only the order of "
                         "rendering is another: the move deals other random numbers",

@@ -20,7 +20,7 @@ enum class Conditioning {
     sensitive,  // more than one in a thousand answer 1e-9, not so many 1e-12: it shrinks with the
                 // move
     ill,        // more than one in a thousand answer 1e-12: rounding decides about them
-    untold,     // they do, but by no more than the pixels of equally right renders differ
+    untold,     // they do, but by no more than twice what equally right renders differ by
 };
 std::string to_string(Conditioning conditioning);
 bool is_well(Conditioning conditioning);  // well or spots
