@@ -14,10 +14,10 @@ import json
 import shutil
 import subprocess
 from dataclasses import dataclass
-from pathlib import Path
 
 from accuracy_page import page
-from program_runs import ROOT, Skip, argument_parser, programs_of, report
+from page_script import page_script
+from program_runs import ROOT, Skip, programs_of, report
 
 PICTURES = ("tradeoff.png", "crops.png")
 
@@ -88,18 +88,12 @@ def page_command(options):
     return 0
 
 
+def measure_arguments(parser):
+    parser.add_argument("scene", nargs="*", choices=list(SCENES), metavar="SCENE")
+
+
 def main():
-    parser = argument_parser(__doc__)
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    measure = commands.add_parser("measure")
-    measure.add_argument("scene", nargs="*", choices=list(SCENES), metavar="SCENE")
-    measure.set_defaults(command=measure_command)
-    written = commands.add_parser("page")
-    written.add_argument("--page", type=Path, default=ROOT / "docs" / "accuracy.md", metavar="FILE")
-    written.set_defaults(command=page_command)
-    options = parser.parse_args()
-    options.work = options.work.resolve() / "accuracy"
-    return options.command(options)
+    return page_script(__doc__, "accuracy", measure_command, page_command, measure_arguments)
 
 
 if __name__ == "__main__":

@@ -18,7 +18,8 @@ from pathlib import Path
 
 from PIL import Image
 
-from program_runs import (ROOT, Skip, argument_parser, fresh_folder, programs_of, report,
+from page_script import page_script
+from program_runs import (ROOT, Skip, fresh_folder, programs_of, report,
                           require_success, run)
 from radiosity_page import page, seams_show
 from seams_survey import EXAMPLES
@@ -166,15 +167,7 @@ def page_command(options):
 
 
 def main():
-    parser = argument_parser(__doc__)
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    commands.add_parser("measure").set_defaults(command=measure_command)
-    written = commands.add_parser("page")
-    written.add_argument("--page", type=Path, default=ROOT / "docs" / "radiosity.md", metavar="FILE")
-    written.set_defaults(command=page_command)
-    options = parser.parse_args()
-    options.work = options.work.resolve() / "radiosity"
-    return options.command(options)
+    return page_script(__doc__, "radiosity", measure_command, page_command)
 
 
 if __name__ == "__main__":

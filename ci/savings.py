@@ -23,7 +23,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from program_runs import (ROOT, Skip, TestFailure, argument_parser, fresh_folder, programs_of,
+from page_script import page_script
+from program_runs import (ROOT, Skip, TestFailure, fresh_folder, programs_of,
                           report, require_success, run)
 from savings_page import page
 from scene_list import all_scenes
@@ -192,15 +193,7 @@ def page_command(options):
 
 
 def main():
-    parser = argument_parser(__doc__)
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    commands.add_parser("measure").set_defaults(command=measure_command)
-    written = commands.add_parser("page")
-    written.add_argument("--page", type=Path, default=ROOT / "docs" / "savings.md", metavar="FILE")
-    written.set_defaults(command=page_command)
-    options = parser.parse_args()
-    options.work = options.work.resolve() / "savings"
-    return options.command(options)
+    return page_script(__doc__, "savings", measure_command, page_command)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,8 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from program_runs import (ROOT, Skip, argument_parser, fresh_folder, programs_of, report,
+from page_script import page_script
+from program_runs import (ROOT, Skip, fresh_folder, programs_of, report,
                           require_success)
 from seams_survey import EXAMPLES
 from simulation_check import arguments_of, simulate
@@ -159,19 +160,13 @@ def page_command(options):
     return 1 if missed(found, more) else 0
 
 
+def measure_arguments(parser):
+    parser.add_argument("case", nargs="*", choices=[*SCENES, "in_flight", "simulation"],
+                        metavar="CASE")
+
+
 def main():
-    parser = argument_parser(__doc__)
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    measure = commands.add_parser("measure")
-    measure.add_argument("case", nargs="*", choices=[*SCENES, "in_flight", "simulation"],
-                         metavar="CASE")
-    measure.set_defaults(command=measure_command)
-    written = commands.add_parser("page")
-    written.add_argument("--page", type=Path, default=ROOT / "docs" / "speed.md", metavar="FILE")
-    written.set_defaults(command=page_command)
-    options = parser.parse_args()
-    options.work = options.work.resolve() / "speed"
-    return options.command(options)
+    return page_script(__doc__, "speed", measure_command, page_command, measure_arguments)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@
 #include "seams_command.h"
 #include "simulate_command.h"
 #include "speedup_command.h"
+#include "stability_command.h"
 #include "standard_output.h"
 #include "tradeoff_command.h"
 
@@ -35,10 +36,10 @@ int run(int argc, char** argv) {
     program.set_version_flag("--version", MPIPOV_VERSION);
     program.require_subcommand(1);
     const std::vector<mpipov::Command> commands{
-        mpipov::add_compare_command(program),  mpipov::add_noise_command(program),
-        mpipov::add_seams_command(program),    mpipov::add_speedup_command(program),
-        mpipov::add_simulate_command(program), mpipov::add_tradeoff_command(program),
-        mpipov::add_report_command(program)};
+        mpipov::add_compare_command(program),   mpipov::add_noise_command(program),
+        mpipov::add_seams_command(program),     mpipov::add_speedup_command(program),
+        mpipov::add_simulate_command(program),  mpipov::add_tradeoff_command(program),
+        mpipov::add_stability_command(program), mpipov::add_report_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version

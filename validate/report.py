@@ -4,7 +4,7 @@
     report.py INPUT.json --output PAGE.html
 
 INPUT.json is what the subcommand `report` collected: {"root", "entries": [{"kind": seams | speedup
-| noise | tradeoff, "file", "folder", "problems": [text], "data": object | null}]}. Whatever the results lack,
+| noise | tradeoff | stability, "file", "folder", "problems": [text], "data": object | null}]}. Whatever the results lack,
 a page is written that says so. Names and messages in them are not trusted: they are escaped, and
 pictures are read from below the results' own folder only.
 """
@@ -21,6 +21,7 @@ import jinja2
 
 sys.dont_write_bytecode = True
 import report_plots as plots  # noqa: E402
+import report_stability  # noqa: E402
 import report_tradeoff  # noqa: E402
 from report_cases import VERDICTS, severity  # noqa: E402
 from report_images import Unreadable, data_uri  # noqa: E402
@@ -170,15 +171,23 @@ def tradeoff_of(entry, index):
             "plot": plots.error_by_seconds(panels) if panels else None}
 
 
-def headline(rows, bad, speedups, noises, tradeoffs):
+def stability_of(entry, index):
+    data, view = at(entry, "data"), view_of(entry, index)
+    for verdict, line in report_stability.problems_of(data):
+        view["failed_whole"] = view["failed_whole"] or verdict
+        view["problems"].append(line)
+    return {**view, **report_stability.facts_of(data, text(at(entry, "folder"), "."))}
+
+
+def headline(rows, bad, others):
+    """others: {what: its views}"""
     if bad:
-        good_others = sum(not view["failed_whole"] for view in [*speedups, *noises, *tradeoffs])
+        good_others = sum(not view["failed_whole"] for views in others.values() for view in views)
         return f"{bad} of {len(rows) + good_others} results to look at"
     if rows:
         return (f"All {len(rows)} cases are as they should be" if len(rows) > 1 else
                 "The case is as it should be")
-    measured = [plural(len(views), what) for views, what in (
-        (speedups, "speed-up"), (noises, "noise floor"), (tradeoffs, "trade-off")) if views]
+    measured = [plural(len(views), what) for what, views in others.items() if views]
     return f"{' and '.join(measured)} measured" if measured else "No scene was compared"
 
 
@@ -193,16 +202,18 @@ def template():
 def page_of(request):
     entries = listing(at(request, "entries"))
     scenes = scenes_of(entries)
-    speedups, noises, tradeoffs = ([view(entry, index) for index, entry in enumerate(
+    speedups, noises, tradeoffs, stabilities = ([view(entry, index) for index, entry in enumerate(
         (entry for entry in entries if at(entry, "kind") == kind), 1)]
         for kind, view in (("speedup", speedup_of), ("noise", noise_page_of),
-                             ("tradeoff", tradeoff_of)))
-    rows = table_of(scenes, [*speedups, *noises, *tradeoffs])
+                             ("tradeoff", tradeoff_of), ("stability", stability_of)))
+    others = {"speed-up": speedups, "noise floor": noises, "trade-off": tradeoffs,
+              "conditioning": stabilities}
+    rows = table_of(scenes, [view for views in others.values() for view in views])
     bad = sum(not (row["case"] and row["case"]["ok"]) for row in rows)
     return template().render(
         scenes=scenes, rows=rows, tally=tally_of(rows),
-        bad=bad, headline=headline(rows, bad, speedups, noises, tradeoffs),
-        speedups=speedups, noises=noises, tradeoffs=tradeoffs,
+        bad=bad, headline=headline(rows, bad, others),
+        speedups=speedups, noises=noises, tradeoffs=tradeoffs, stabilities=stabilities,
         versions=sorted({(s["mpipov"], s["povray"]) for s in scenes
                          if s["mpipov"] and s["povray"]}),
         made=datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),

@@ -11,8 +11,8 @@ from report_text import (at, command, count, fixed, listing, mapping, number, pl
 EXPECTED = "differs as expected"
 # Verdicts, worst first: how they are marked besides their colour.
 VERDICTS = {"damaged": "✕", "failed": "✕", "incomplete": "…", "differs": "≠", "beyond noise": "!",
-            "no verdict": "?", EXPECTED: "≠", "within noise": "≈", "identical": "="}
-GOOD = (EXPECTED, "within noise", "identical")
+            "no verdict": "?", EXPECTED: "≠", "ill-conditioned": "∿", "within noise": "≈", "identical": "="}
+GOOD = (EXPECTED, "ill-conditioned", "within noise", "identical")
 
 
 def fits(verdict, comparison):

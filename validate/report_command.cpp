@@ -37,10 +37,10 @@ Exit run_report(const ReportOptions& options) {
     if (input.at("entries").empty())
         throw Failure(
             Exit::file,
-            fmt::format(
-                "there is no seams.json, speedup.json, noise.json or tradeoff.json below '{}': "
-                "make one with mpipov-validate seams",
-                options.folder));
+            fmt::format("there is no seams.json, speedup.json, noise.json, tradeoff.json or "
+                        "stability.json below '{}': "
+                        "make one with mpipov-validate seams",
+                        options.folder));
     const fs::path page = options.output.empty() ? root / "report.html" : fs::path(options.output);
     for (const auto& entry : input.at("entries"))
         require_other_file("--output", page, {root / entry.at("file").get<std::string>()});
@@ -62,7 +62,7 @@ Command add_report_command(CLI::App& program) {
     CLI::App* app = program.add_subcommand(
         "report",
         "One self-contained HTML page out of all results (seams.json, speedup.json, noise.json, "
-        "tradeoff.json) below a folder, failures first.");
+        "tradeoff.json, stability.json) below a folder, failures first.");
     app->add_option("DIR", options->folder, "the folder to search")->required();
     app->add_option("--output", options->output, "the page's file (default: DIR/report.html)")
         ->type_name("FILE");

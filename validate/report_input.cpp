@@ -30,7 +30,8 @@ struct Part {
     Type type;
 };
 
-constexpr std::array<std::string_view, 4> kinds{"seams", "speedup", "noise", "tradeoff"};
+constexpr std::array<std::string_view, 5> kinds{"seams", "speedup", "noise", "tradeoff",
+                                                "stability"};
 constexpr std::array<Part, 5> seams_parts{{{"scene", Type::string},
                                            {"complete", Type::boolean},
                                            {"image", Type::object},
@@ -41,6 +42,8 @@ constexpr std::array<Part, 1> compared_parts{{{"comparison", Type::object}}};
 constexpr std::array<Part, 2> comparison_parts{
     {{"identical", Type::boolean}, {"differing", Type::number_unsigned}}};
 constexpr std::array<Part, 1> rows_parts{{{"rows", Type::array}}};
+constexpr std::array<Part, 2> stability_parts{
+    {{"moves", Type::array}, {"complete", Type::boolean}}};
 constexpr std::array<Part, 1> noise_parts{{{"noise", Type::object}}};
 
 json parse(const fs::path& file) {
@@ -101,6 +104,8 @@ void check(const json& data, std::string_view kind, std::vector<std::string>& pr
         check_cases(data, problems);
     } else if (kind == "speedup" || kind == "tradeoff") {
         check_parts(data, rows_parts, "", problems);
+    } else if (kind == "stability") {
+        check_parts(data, stability_parts, "", problems);
     } else {
         check_parts(data, noise_parts, "", problems);
     }

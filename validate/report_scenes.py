@@ -6,6 +6,7 @@ import json
 import report_images as images
 import report_plots as plots
 from report_cases import VERDICTS, case_view, curve_of, severity
+from report_stability import conditioning_of
 from report_text import (at, command, count, listing, mapping, number, plural, rounded,
                          seam_place, seconds, text, texts, whole)
 
@@ -251,7 +252,8 @@ def scene_view(entry):
         "mpipov": text(at(data, "versions", "mpipov")), "effects": on, "without": off,
         "references": [(name, seconds(at(r, "seconds")), command(texts(at(r, "argv"))))
                        for name, r in mapping(at(data, "references")).items()],
-        "noise": noise_of(at(data, "noise")), "views": views, "groups": groups,
+        "noise": noise_of(at(data, "noise")),
+        "conditioning": conditioning_of(at(data, "conditioning")), "views": views, "groups": groups,
         "identical": [view for view in views if view["verdict"] == "identical"],
         "alone": None if any(g["pictures"] for g in groups) else scene.alone(),
         "plots": drawn,

@@ -52,6 +52,8 @@ std::string to_string(Verdict::Kind kind) {
             return "identical";
         case Verdict::Kind::within_noise:
             return "within noise";
+        case Verdict::Kind::ill_conditioned:
+            return "ill-conditioned";
         case Verdict::Kind::beyond_noise:
             return "beyond noise";
         case Verdict::Kind::differs:
@@ -89,6 +91,21 @@ Verdict decide(const VerdictRequest& request) {
         Verdict::Kind::differs, false,
         found +
             ", where the scene hardly depends on the order of rendering, if at all, and none may"};
+}
+
+Verdict reconsidered(const Verdict& verdict, const std::string& why,
+                     const AnswerMap::Differing& found) {
+    if (found.all > 0 && found.unexplained == 0)
+        return {Verdict::Kind::ill_conditioned, true,
+                fmt::format("{} pixels differ, none by more than the picture changes there or next "
+                            "to it for nothing: the scene is ill-conditioned ({})",
+                            found.all, why)};
+    Verdict kept = verdict;
+    kept.why += fmt::format(
+        "; the scene is ill-conditioned, but {} of the {} pixels that differ "
+        "do so by more than the picture changes there for nothing",
+        found.unexplained, found.all);
+    return kept;
 }
 
 }  // namespace mpipov

@@ -1,6 +1,7 @@
 // What is said of one image that was rendered in sections. Pure.
 #pragma once
 
+#include "answer_map.h"
 #include "seam_judge.h"
 #include "section.h"
 
@@ -10,7 +11,7 @@
 namespace mpipov {
 
 struct Verdict {
-    enum class Kind { identical, within_noise, beyond_noise, differs, failed };
+    enum class Kind { identical, within_noise, ill_conditioned, beyond_noise, differs, failed };
     Kind kind = Kind::failed;
     bool ok = false;
     std::string why;  // one sentence
@@ -35,5 +36,11 @@ struct VerdictRequest {
 // What antialiasing does at edges it does to few pixels of a section: over 121 scenes to 4.9 % at
 // most (docs/seams.md). More than a quarter is damage, whatever the seams.
 Verdict decide(const VerdictRequest& request);
+
+// Of an ill-conditioned scene (`why`: what makes it one), whose pixels differ as `found`. Where its
+// picture answers next to nothing by as much everywhere, the seams are not to be blamed for it, and
+// it is ok; else the verdict stands, and says so.
+Verdict reconsidered(const Verdict& verdict, const std::string& why,
+                     const AnswerMap::Differing& found);
 
 }  // namespace mpipov

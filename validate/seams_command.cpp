@@ -21,6 +21,7 @@ struct SeamsOptions {
                              seams = "aligned,halo:2,plain", sections = "2,8,32",
                              radiosity = "auto", povray = "povray", mpiexec = "mpiexec";
     int renders = default_noise_renders;
+    bool conditioning = true;
 };
 
 const std::vector<Shape> shapes{Shape::columns, Shape::rows, Shape::tiles};
@@ -54,6 +55,7 @@ Exit run(const CLI::App& app, const SeamsOptions& options) {
     request.sections = each_once(split_numbers("--sections", options.sections));
     request.radiosity = split_radiosity(options.radiosity, false);
     request.renders = options.renders;
+    request.conditioning = options.conditioning;
     request.serial = options.serial;
     request.povray = options.povray;
     request.mpiexec = options.mpiexec;
@@ -97,6 +99,10 @@ Command add_seams_command(CLI::App& program) {
                     "take the serial renders from what noise --out left there, of the same scene "
                     "with all its files, arguments and POV-Ray, instead of making them")
         ->type_name("DIR");
+    app->add_flag("--conditioning,!--no-conditioning", options->conditioning,
+                  "where a case would be blamed, move the camera by next to nothing first: an "
+                  "ill-conditioned scene is called that (see mpipov-validate stability); default: "
+                  "on");
     app->add_option("--povray", options->povray, "which POV-Ray to run")->capture_default_str();
     app->add_option("--mpiexec", options->mpiexec, "which mpiexec to run")->capture_default_str();
     app->footer(

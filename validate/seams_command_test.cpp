@@ -8,6 +8,8 @@
 
 #include <fstream>
 #include <iterator>
+#include <tuple>
+#include <utility>
 
 namespace mpipov {
 namespace {
@@ -78,6 +80,7 @@ TEST_F(RenderPrograms, DamageInAnExactSceneIsFound) {
     const json found = read("out/seams.json");
     EXPECT_EQ(found["cases"][0]["verdict"]["verdict"], "differs");
     EXPECT_FALSE(found["cases"][0]["verdict"]["ok"].get<bool>());
+    EXPECT_EQ(found["conditioning"]["verdict"]["verdict"], "well-conditioned");
 }
 
 // Plain seams with antialiasing of method 1 may differ, but not by everything.
@@ -92,6 +95,41 @@ TEST_F(RenderPrograms, DamageIsFoundWherePlainSeamsMayDiffer) {
                    "out", "--ranks", "1", "--sections", "2", "--seams", "plain"}),
               0)
         << output_;
+}
+
+// Two balls in the same place. The image that comes to be compared was rendered a little farther
+// off, or is that with one more pixel changed.
+TEST_F(RenderPrograms, AnIllConditionedSceneIsBlamedAndNotItsSeams) {
+    std::ofstream(path("balls.pov"))
+        << "#version 3.7; global_settings { assumed_gamma 1 }\n"
+           "#ifndef (Mpipov_Camera_Move) #declare Mpipov_Camera_Move = 0; #end\n"
+           "camera { location <1.3, 2.1, -4.7> look_at 0 angle 40 scale 1 + Mpipov_Camera_Move }\n"
+           "light_source { <5, 10, -10> rgb 1 }\n"
+           "sphere { 0, 1.2 pigment { rgb x } }\n"
+           "sphere { 0, 0.4 pigment { rgb z } scale 3 rotate 41 }\n";
+    const auto replaced_by = [&](const std::string& more) {
+        program("moving-mpiexec",
+                "mpiexec \"$@\" || exit\n"
+                "for last; do :; done\n"
+                "image=${last#+O}.png\n"
+                "povray balls.pov +W64 +H48 -A +WT1 -D +Oother.png " +
+                    more + " || exit\ncp other.png \"$image\"\n");
+        const int code =
+            run({"seams", "balls.pov", "+W64", "+H48", "-A", "--out", "out", "--ranks", "1",
+                 "--sections", "2", "--seams", "aligned", "--mpiexec", "./moving-mpiexec"});
+        const json found = read("out/seams.json");
+        EXPECT_EQ(found["conditioning"]["verdict"]["verdict"], "ill-conditioned");
+        EXPECT_THAT(output_, HasSubstr("The scene is ill-conditioned: "));
+        return std::pair(code, found["cases"][0]["verdict"]);
+    };
+    auto [code, verdict] = replaced_by("Declare=Mpipov_Camera_Move=1e-10");
+    EXPECT_EQ(code, 0) << output_;
+    EXPECT_EQ(verdict["verdict"], "ill-conditioned") << verdict;
+    EXPECT_TRUE(verdict["ok"].get<bool>());
+    std::tie(code, verdict) = replaced_by("Declare=Mpipov_Camera_Move=1e-2");
+    EXPECT_EQ(code, 1) << output_;
+    EXPECT_EQ(verdict["verdict"], "differs");
+    EXPECT_THAT(verdict["why"].get<std::string>(), HasSubstr("the scene is ill-conditioned, but"));
 }
 
 TEST_F(RenderPrograms, AFailedCaseIsWritten) {

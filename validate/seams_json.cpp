@@ -122,6 +122,12 @@ json case_json(const SeamsCase& one, const fs::path& folder) {
             {"seconds", one.seconds}};
 }
 
+json conditioning_json(const SeamsScene& scene, const fs::path& folder) {
+    json j = to_json(scene.found, folder);
+    j["failure"] = text_json(scene.failure);
+    return j;
+}
+
 json effects_json(const std::map<std::string, Effect>& effects) {
     json j = json::object();
     for (const auto& [name, effect] : effects)
@@ -155,6 +161,8 @@ json to_json(const SeamsReport& report) {
             {"effects", effects_json(report.effects)},
             {"references", references},
             {"noise", report.serial ? to_json(report.serial->noise, report.folder) : json()},
+            {"conditioning",
+             report.conditioning ? conditioning_json(*report.conditioning, report.folder) : json()},
             {"cases", cases},
             {"skipped", skipped}};
 }

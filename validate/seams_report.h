@@ -6,6 +6,7 @@
 #include "run_record.h"
 #include "seam_verdict.h"
 #include "serial_set.h"
+#include "stability_report.h"
 
 #include <nlohmann/json.hpp>
 
@@ -38,6 +39,12 @@ struct SkippedCase {
     std::string name, why;
 };
 
+// How well-conditioned the scene is.
+struct SeamsScene {
+    Stability found;
+    std::string failure;  // not empty: it could not be measured
+};
+
 struct SeamsReport {
     std::filesystem::path folder;  // paths in the JSON are relative to it
     std::vector<std::string> arguments;
@@ -46,7 +53,8 @@ struct SeamsReport {
     std::string failure;
     std::map<std::string, Effect> effects;
     std::optional<ImageFormat> image;
-    std::optional<SerialSet> serial;  // none: it was not come so far
+    std::optional<SerialSet> serial;         // none: it was not come so far
+    std::optional<SeamsScene> conditioning;  // none: nothing was to be blamed
     std::vector<SeamsCase> cases;
     std::vector<SkippedCase> skipped;  // that cannot be: so many sections, so few columns
 };

@@ -5,6 +5,7 @@
 #include "result_file.h"
 #include "run_child.h"
 #include "run_image.h"
+#include "seams_conditioning.h"
 #include "serial_stage.h"
 #include "set_aside.h"
 
@@ -25,7 +26,8 @@ class SeamsRun {
         : request_(request),
           report_(report),
           file_(request.folder / "seams.json", has_cases),
-          stage_(request.folder) {}
+          stage_(request.folder),
+          conditioning_(request.arguments, request.povray, request.folder / "conditioning") {}
 
     Exit run() {
         measure_into(file_, report_, [&] {
@@ -214,6 +216,8 @@ class SeamsRun {
         one.verdict = decide({one.comparison->identical(), one.comparison->metrics.counts.differing,
                               one.seams, blocks, is_exact(serial.noise),
                               worst_section_share(*one.comparison), one.judgement});
+        if (!one.verdict.ok && request_.conditioning)
+            conditioning_.reconsider(one, reference.image, report_);
     }
 
     static double worst_section_share(const Comparison& comparison) {
@@ -252,6 +256,7 @@ class SeamsRun {
     SeamsReport& report_;
     ResultFile file_;
     const SerialStage stage_;
+    SeamsConditioning conditioning_;
     bool settled_ = false;
     std::optional<SeamJudge> judge_;
     Exit outcome_ = Exit::ok;

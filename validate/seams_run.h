@@ -30,6 +30,7 @@ struct SeamsRequest {
     std::vector<int> sections{2, 8, 32};
     std::vector<std::string> radiosity{"auto"};  // as --radiosity of mpipov takes it
     int renders = default_noise_renders;
+    bool conditioning = true;      // measured where something would be blamed
     std::filesystem::path serial;  // of `noise --out`; empty: serial renders are made
     std::string povray = "povray", mpiexec = "mpiexec";
     std::filesystem::path mpipov;  // the program

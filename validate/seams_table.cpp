@@ -85,6 +85,15 @@ std::string to_table(const SeamsReport& report) {
                    "verdict", "differing", "largest", "SSIM", "step", "control", "findable",
                    "quiet on");
     for (const SeamsCase& one : report.cases) case_row(out, one, width);
+    if (report.conditioning) {
+        const auto& [found, failure] = *report.conditioning;
+        if (found.verdict)
+            fmt::format_to(out, "\nThe scene is {}: {}\n", to_string(found.verdict->kind),
+                           found.verdict->why);
+        else
+            fmt::format_to(out, "\nHow well-conditioned the scene is cannot be said: {}\n",
+                           failure);
+    }
     for (const SkippedCase& one : report.skipped)
         fmt::format_to(out, "{:<{}}  left out: {}\n", one.name, width, one.why);
     fmt::format_to(out,

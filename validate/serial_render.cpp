@@ -47,7 +47,7 @@ SerialRenderer::SerialRenderer(std::string povray, const std::vector<std::string
 
 SerialRender SerialRenderer::render(const std::string& name, const std::vector<std::string>& more,
                                     const fs::path& folder, int threads) const {
-    SerialRender render{name, {povray_}, {}, 0, 0, {}};
+    SerialRender render{name, {povray_}, {}, 0, 0, {}, {}};
     std::vector<std::string>& argv = render.argv;
     argv.insert(argv.end(), arguments_.begin(), arguments_.end());
     argv.insert(argv.end(), more.begin(), more.end());
@@ -71,6 +71,7 @@ SerialRender SerialRenderer::render(const std::string& name, const std::vector<s
     render.wall_seconds = result.wall_seconds;
     render.cpu_seconds = result.cpu_seconds;
     render.report = parse_report(output);
+    render.text = std::move(output);
     const fs::path image = find_image(place / "image");
     render.image = folder / (name + image.extension().string());
     move_file(image, render.image);

@@ -17,6 +17,7 @@ struct SerialRender {
     std::filesystem::path image;
     double wall_seconds = 0, cpu_seconds = 0;
     LaunchReport report;
+    std::string text;  // all that POV-Ray printed, as it broke the lines
 };
 
 class SerialRenderer {

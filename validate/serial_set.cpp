@@ -21,21 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-SceneAsked ask_scene(const SerialRequest& request) {
-    const ScratchFolder scratch("probe");
-    SceneAsked scene;
-    scene.povray_version = povray_version(request.povray);
-    const Probe probe =
-        run_probe({request.povray, quote_arguments(request.arguments), scratch.path(), {}});
-    const ImageOptions& image = probe.result.image;
-    scene.file = image.input_file;
-    scene.name = fs::path(image.input_file).stem().string();
-    scene.identity = job_identity(probe, request.arguments, scene.povray_version);
-    scene.order_dependent = probe.result.order_dependent;
-    scene.longest_side = std::max(image.width, image.height);
-    return scene;
-}
-
 std::string why_no_noise(const NoiseRenders& found) {
     if (found.exact)
         return fmt::format(
@@ -89,10 +74,27 @@ bool is_exact(const NoiseReport& noise) {
                            noise.floor->noisy * one_in <= noise.floor->samples);
 }
 
+SceneAsked ask_scene(const std::vector<std::string>& arguments, const std::string& povray) {
+    const ScratchFolder scratch("probe");
+    SceneAsked scene;
+    scene.povray_version = povray_version(povray);
+    const Probe probe = run_probe({povray, quote_arguments(arguments), scratch.path(), {}});
+    const ImageOptions& image = probe.result.image;
+    scene.file = image.input_file;
+    scene.name = fs::path(image.input_file).stem().string();
+    scene.identity = job_identity(probe, arguments, scene.povray_version);
+    scene.order_dependent = probe.result.order_dependent;
+    for (const auto& [key, value] : probe.settings)
+        if (key == "Library_Path") scene.library_paths.emplace_back(value);
+    scene.longest_side = std::max(image.width, image.height);
+    scene.pixels = static_cast<long long>(image.region.width()) * image.region.height();
+    return scene;
+}
+
 SerialSet render_serial_set(const SerialRequest& request, const fs::path& folder) {
     const ScratchFolder scratch("serial");
     SerialSet set;
-    set.scene = ask_scene(request);
+    set.scene = ask_scene(request.arguments, request.povray);
     const SerialRenderer renderer(request.povray, request.arguments, scratch.path());
     const auto add_reference = [&](const std::string& name, const std::vector<std::string>& more) {
         fmt::print(stderr, "rendering the serial reference: {}\n", name);
@@ -144,7 +146,7 @@ SerialSet read_serial_set(const SerialRequest& request, const fs::path& folder) 
         for (const json& render : noise.value("renders", json::array()))
             set.noise.renders.push_back({read_render(render, folder), {}});
 
-        set.scene = ask_scene(request);
+        set.scene = ask_scene(request.arguments, request.povray);
         const std::string what = what_changed(member(j, "identity"), set.scene.identity);
         require_none(what.empty() ? "" : fmt::format("of another state of the scene: {}", what));
         compare_noise(set, {});

@@ -29,7 +29,9 @@ struct SceneAsked {
     // (job_identity.h, which says what cannot be seen).
     nlohmann::json identity;
     bool order_dependent = false;
-    int longest_side = 0;  // pixels
+    std::vector<std::filesystem::path> library_paths;  // as POV-Ray searches them
+    int longest_side = 0;                              // pixels
+    long long pixels = 0;                              // of the region that is rendered
 };
 
 struct NoiseRender {
@@ -77,6 +79,9 @@ nlohmann::json to_json(const NoiseReport& noise, const std::filesystem::path& fo
 // noise.json.
 nlohmann::json to_json(const SerialSet& set, const SerialRequest& request,
                        const std::filesystem::path& folder);
+
+// `arguments` as the user gave them. Throws Failure as run_probe.
+SceneAsked ask_scene(const std::vector<std::string>& arguments, const std::string& povray);
 
 // What an earlier render_serial_set left in `folder`. Asks POV-Ray about the scene again, and
 // throws Failure(Exit::usage) where it is another now (any file of it, the settings, POV-Ray
