@@ -157,6 +157,7 @@ json to_json(const Comparison& comparison) {
             {"mean_signed", both(metrics.all.mean_signed())},
             {"rms", both(metrics.all.rms())},
             {"psnr", number_json(comparison.psnr())},
+            {"psnr_reason", text_json(std::string(metrics.why_no_psnr()))},
             {"peak", comparison.peak},
             {"largest", largest},
             {"channels", channels},

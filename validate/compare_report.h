@@ -3,7 +3,8 @@
 // Errors are b - a in stored units: levels of integer images (full_scale 255 or 65535), the values
 // of float images (full_scale 1). At the top level of the JSON they are given twice, as
 // {"levels": number|null, "full_scale": number}; in its lists (channels, run) in stored units.
-// null stands for what is undefined: the PSNR of images without a finite error, means over nothing.
+// null stands for what is undefined: means over nothing, and what JSON has no number for: the PSNR
+// of images without an error. "psnr_reason" says which of the two it is, or is null.
 #pragma once
 
 #include "compare.h"

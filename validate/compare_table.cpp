@@ -119,6 +119,35 @@ void steps_text(Text out, const SeamReport& report, const std::string& unit) {
     row("midway between them", report.control_steps);
 }
 
+void errors_text(Text out, const Comparison& comparison) {
+    const ImageFormat& format = comparison.format;
+    const Metrics& metrics = comparison.metrics;
+    const auto row = [&](const char* name, const std::optional<double>& stored) {
+        fmt::format_to(out, "{:<19}{}", name, stored ? number(stored) : "none");
+        if (format.integer() && stored)
+            fmt::format_to(out, " of {} levels, {:.6g} of full scale", format.full_scale(),
+                           *stored / format.full_scale());
+        fmt::format_to(out, "\n");
+    };
+    if (metrics.zero_signs > 0)
+        fmt::format_to(out, "sign of zero       {} samples are 0 in one and -0 in the other\n",
+                       metrics.zero_signs);
+    row("mean error", metrics.all.mean_abs());
+    row("mean, signed B - A", metrics.all.mean_signed());
+    row("RMS error", metrics.all.rms());
+    row("largest error", metrics.all.max());
+    if (metrics.largest) {
+        const LargestError& at = *metrics.largest;
+        fmt::format_to(out, "                   at x {}, y {}, channel {}: A {:.9g}, B {:.9g}\n",
+                       at.x, at.y, format.channels[static_cast<std::size_t>(at.channel)], at.a,
+                       at.b);
+    }
+    const auto psnr = comparison.psnr();
+    fmt::format_to(out, "PSNR               {}\n",
+                   psnr ? fmt::format("{:.4f} dB (peak {})", *psnr, comparison.peak)
+                        : std::string(metrics.why_no_psnr()));
+}
+
 void ssim_text(Text out, const Ssim& ssim, const ImageFormat& format) {
     if (!ssim.value) {
         fmt::format_to(out, "SSIM               none: {}\n", ssim.reason);
@@ -169,36 +198,12 @@ std::string to_table(const Comparison& comparison) {
     fmt::format_to(out, "A  {} ({})\nB  {} ({})\n{} x {} pixels, {}, {}\n\n", comparison.a.string(),
                    format.type, comparison.b.string(), comparison.type_b, format.width,
                    format.height, fmt::join(format.channels, ","), format.depth);
-    if (comparison.identical()) {
+    if (comparison.identical())
         fmt::format_to(out, "identical: no pixel of {} differs\n", metrics.counts.pixels);
-    } else {
+    else
         fmt::format_to(out, "differing pixels   {} of {} ({}), in {}\n", metrics.counts.differing,
                        metrics.counts.pixels, percent(metrics.counts), box(metrics.differing_box));
-        const auto row = [&](const char* name, const std::optional<double>& stored) {
-            fmt::format_to(out, "{:<19}{}", name, number(stored));
-            if (format.integer() && stored)
-                fmt::format_to(out, " of {} levels, {:.6g} of full scale", format.full_scale(),
-                               *stored / format.full_scale());
-            fmt::format_to(out, "\n");
-        };
-        if (metrics.zero_signs > 0)
-            fmt::format_to(out, "sign of zero       {} samples are 0 in one and -0 in the other\n",
-                           metrics.zero_signs);
-        row("mean error", metrics.all.mean_abs());
-        row("mean, signed B - A", metrics.all.mean_signed());
-        row("RMS error", metrics.all.rms());
-        if (metrics.largest) {
-            const LargestError& at = *metrics.largest;
-            row("largest error", std::abs(at.b - at.a));
-            fmt::format_to(
-                out, "                   at x {}, y {}, channel {}: A {:.9g}, B {:.9g}\n", at.x,
-                at.y, format.channels[static_cast<std::size_t>(at.channel)], at.a, at.b);
-        }
-        const auto psnr = comparison.psnr();
-        fmt::format_to(out, "PSNR               {}\n",
-                       psnr ? fmt::format("{:.4f} dB (peak {})", *psnr, comparison.peak)
-                            : "none: the error of all finite samples is 0");
-    }
+    errors_text(out, comparison);
     if (metrics.nonfinite.total() > 0) nonfinite_text(out, metrics.nonfinite, format);
     if (comparison.ssim) ssim_text(out, *comparison.ssim, format);
     if (comparison.seams && !comparison.identical()) text += to_table(*comparison.seams, unit);

@@ -15,9 +15,17 @@ std::optional<double> ErrorSums::mean(const Sum& sum) const {
     return sum.value() / static_cast<double>(samples_);
 }
 
+void ErrorSums::add(const ErrorSums& other) {
+    samples_ += other.samples_;
+    signed_.add(other.signed_);
+    absolute_.add(other.absolute_);
+    square_.add(other.square_);
+    max_ = std::max(max_, other.max_);
+}
+
 std::optional<double> ErrorSums::rms() const {
     const auto square = mean(square_);
-    if (!square) return {};
+    if (!square || !std::isfinite(*square)) return {};
     return std::sqrt(*square);
 }
 
@@ -30,6 +38,13 @@ std::optional<double> Metrics::psnr(double peak) const {
     const auto rms = all.rms();
     if (!rms || *rms == 0) return {};
     return 20 * std::log10(peak / *rms);
+}
+
+std::string_view Metrics::why_no_psnr() const {
+    if (all.samples() == 0) return "undefined: no sample is finite in both images";
+    const auto rms = all.rms();
+    if (!rms) return "undefined: the square of an error is beyond a double";
+    return *rms == 0 ? "infinite: no finite sample has an error" : "";
 }
 
 MetricsBuilder::MetricsBuilder(const ImageShape& shape) : shape_(shape) {
@@ -56,7 +71,6 @@ void MetricsBuilder::add_sample(int x, int y, int channel, double a, double b) {
         note_nonfinite(x, y, channel, a, b);
         return;
     }
-    metrics_.all.add(a, b);
     metrics_.channels[static_cast<std::size_t>(channel)].add(a, b);
     if (a == b && !same_value(a, b)) ++metrics_.zero_signs;
     const auto error = std::abs(b - a);
@@ -71,7 +85,6 @@ void MetricsBuilder::add_row(int y, std::span<const double> a, std::span<const d
         return same_value(p, q) && std::isfinite(p);
     };
     if (std::equal(a.begin(), a.end(), b.begin(), finite_and_equal)) {
-        metrics_.all.add_equal(static_cast<long long>(a.size()));
         for (ErrorSums& channel : metrics_.channels) channel.add_equal(shape_.width);
         return;
     }
@@ -89,6 +102,12 @@ void MetricsBuilder::add_row(int y, std::span<const double> a, std::span<const d
                   : Rect{std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1),
                          std::max(box.y1, y + 1)};
     }
+}
+
+Metrics MetricsBuilder::result() const {
+    Metrics metrics = metrics_;
+    for (const ErrorSums& channel : metrics.channels) metrics.all.add(channel);
+    return metrics;
 }
 
 }  // namespace mpipov

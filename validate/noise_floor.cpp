@@ -5,16 +5,6 @@
 
 namespace mpipov {
 
-Welford Welford::without(double value) const {
-    Welford rest;
-    rest.count_ = count_ - 1;
-    if (rest.count_ < 1) return rest;
-    const auto n = static_cast<double>(count_), left = static_cast<double>(rest.count_);
-    rest.mean_ = mean_ - (value - mean_) / left;
-    rest.squares_ = std::max(0.0, squares_ - (value - mean_) * (value - mean_) * n / left);
-    return rest;
-}
-
 double Quantisation::step(double value, double brightest) const {
     switch (kind) {
         case Kind::levels:

@@ -2,32 +2,13 @@
 #pragma once
 
 #include "metrics.h"
+#include "variance.h"
 
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace mpipov {
-
-// Mean and variance of one sample over renders, one value after the other (Welford).
-class Welford {
-  public:
-    void add(double value) {
-        const double off = value - mean_;
-        mean_ += off / static_cast<double>(++count_);
-        squares_ += off * (value - mean_);
-    }
-    long long count() const { return count_; }
-    double mean() const { return mean_; }
-    // Of the population that the values were drawn from; 0 of fewer than two.
-    double variance() const { return count_ < 2 ? 0 : squares_ / static_cast<double>(count_ - 1); }
-    // The same without one of the values that were added.
-    Welford without(double value) const;
-
-  private:
-    long long count_ = 0;
-    double mean_ = 0, squares_ = 0;
-};
 
 // What stored values are rounded to; rounding alone has a variance of step^2 / 12.
 struct Quantisation {

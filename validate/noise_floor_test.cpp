@@ -11,20 +11,6 @@
 namespace mpipov {
 namespace {
 
-TEST(Welford, MeanAndVarianceWithAndWithoutAValue) {
-    Welford all;
-    for (const double value : {1e9 + 4, 1e9 + 7, 1e9 + 13, 1e9 + 16}) all.add(value);
-    EXPECT_DOUBLE_EQ(all.mean(), 1e9 + 10);
-    EXPECT_DOUBLE_EQ(all.variance(), 30);
-    const Welford rest = all.without(1e9 + 16);
-    EXPECT_EQ(rest.count(), 3);
-    EXPECT_DOUBLE_EQ(rest.mean(), 1e9 + 8);
-    EXPECT_NEAR(rest.variance(), 21, 1e-6);
-    Welford one;
-    one.add(5);
-    EXPECT_EQ(one.variance(), 0);
-}
-
 TEST(NoiseFloor, SigmaIsTheRootOfTheMeanVariance) {
     NoiseFloorBuilder builder({2, 1, 2});
     const double nan = std::numeric_limits<double>::quiet_NaN();

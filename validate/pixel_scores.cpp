@@ -30,13 +30,20 @@ void PixelScores::add_row(int y, std::span<const std::span<const double>> render
         row.judged[j].expected.resize(samples);
         row.judged[j].variance.resize(samples);
     }
+    std::vector<double> values(renders.size());
+    std::vector<Welford> rest;
     for (std::size_t i = 0; i < samples; ++i) {
-        Welford all;
-        for (const auto& render : renders) all.add(render[i]);
-        for (Judged& judged : row.judged) {
-            const Welford others = leave_one_out ? all.without(judged.value[i]) : all;
-            judged.expected[i] = others.mean();
-            judged.variance[i] = others.variance();
+        std::ranges::transform(renders, values.begin(),
+                               [i](const auto& render) { return render[i]; });
+        if (leave_one_out) {
+            each_without_one(values, rest);
+        } else {
+            rest.assign(1, {});
+            for (const double value : values) rest[0].add(value);
+        }
+        for (std::size_t j = 0; j < row.judged.size(); ++j) {
+            row.judged[j].expected[i] = rest[j].mean();
+            row.judged[j].variance[i] = rest[j].variance();
         }
     }
     if (rows_.size() >= 2) emit(rows_.size() - 2);

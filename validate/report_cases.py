@@ -37,6 +37,11 @@ def is_ok(case):
     return at(case, "verdict", "ok") is True and verdict_of(case) in GOOD
 
 
+def has_infinite_psnr(comparison):
+    reason = text(at(comparison, "psnr_reason"))
+    return reason.startswith("infinite") if reason else at(comparison, "identical") is True
+
+
 def largest_of(comparison):
     largest = at(comparison, "largest")
     signed = stored(comparison, "largest")
@@ -168,6 +173,7 @@ def step_text(step):
 def facts_of(case, comparison):
     """[(what, text)] that the table does not hold."""
     no_ssim = number(at(comparison, "ssim", "value")) is None
+    identical = at(comparison, "identical") is True
     facts = [("layout", layout_text(case)),
              ("mean difference", error_text(comparison)),
              ("step across a seam", step_text(at(comparison, "run", "step"))),
@@ -175,6 +181,7 @@ def facts_of(case, comparison):
              ("steps against noise", step_test_text(at(case, "verdict", "step_test"))),
              ("false alarms", quiet_text(at(case, "verdict", "quiet"))),
              ("neighbours’ self-check", self_check_text(at(case, "self_check"))),
+             ("PSNR", None if identical else text(at(comparison, "psnr_reason"))),
              ("SSIM", text(at(comparison, "ssim", "reason")) if no_ssim else None)]
     return [(what, value) for what, value in facts if value]
 
@@ -194,9 +201,9 @@ def case_view(folder, data, case):
         "failure": text(at(case, "failure")),
         "differing": count(differing),
         "share": f"{100 * differing / pixels:.2g} %" if pixels and differing else None,
-        "largest": largest, "unit": text(at(comparison, "unit"), "level"),
+        "largest": largest, "no_error": has_infinite_psnr(comparison), "unit": text(at(comparison, "unit"), "level"),
         "ssim": fixed(at(comparison, "ssim", "value"), 5),
-        "psnr": "∞" if at(comparison, "identical") is True else fixed(at(comparison, "psnr"), 1),
+        "psnr": "∞" if has_infinite_psnr(comparison) else fixed(at(comparison, "psnr"), 1),
         "step": rounded(at(step, "seams", "mean_step")),
         "controls": rounded(at(step, "controls", "mean_step")),
         "seconds": seconds(at(case, "seconds")),
@@ -206,7 +213,7 @@ def case_view(folder, data, case):
     view["sort"] = {
         "verdict": list(VERDICTS).index(verdict), "differing": differing,
         "largest": largest and largest["value"], "ssim": number(at(comparison, "ssim", "value")),
-        "psnr": 1e9 if at(comparison, "identical") is True else number(at(comparison, "psnr")),
+        "psnr": 1e9 if has_infinite_psnr(comparison) else number(at(comparison, "psnr")),
         "step": number(at(step, "seams", "mean_step")), "seconds": number(at(case, "seconds"))}
     return view
 

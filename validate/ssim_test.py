@@ -8,6 +8,7 @@ import tempfile
 import unittest
 
 import numpy as np
+from scipy.ndimage import gaussian_filter
 from skimage.metrics import structural_similarity
 
 sys.dont_write_bytecode = True
@@ -60,6 +61,41 @@ class Ssim(unittest.TestCase):
         found = ssim.ssim(np.full((20, 30, 1), p), np.full((20, 30, 1), q), 1.0)
         self.assertAlmostEqual(found["ssim"], expected, places=9)
 
+    def test_equal_constant_images_have_exactly_1_whatever_their_value(self):
+        for value in (0.0, 5.96e-8, 0.25, 1.0, 65504.0, 1e6, 3e38):
+            one = np.full((20, 30, 1), value)
+            self.assertEqual(ssim.ssim(one, one.copy(), 1.0)["ssim"], 1.0, msg=value)
+
+    def test_constant_images_far_above_the_peak_by_hand(self):
+        for p, q in ((1e6, 1e6 + 1), (1e6, 2e6), (3e38, 1e38)):
+            c1 = 0.01 ** 2
+            expected = (2 * p * q + c1) / (p * p + q * q + c1)
+            found = ssim.ssim(np.full((20, 30, 1), p), np.full((20, 30, 1), q), 1.0)
+            self.assertAlmostEqual(found["ssim"], expected, places=12)
+
+    def test_variances_do_not_cancel(self):
+        # Mean 1e6, deviation 1e-3. From so far above the peak only contrast and structure count.
+        random = np.random.default_rng(1999)
+        steps = np.rint(random.normal(0, 4, (2, 60, 50, 1)))
+        a, b = steps[0] / 4096, (steps[0] + steps[1]) / 4096
+        found = ssim.ssim(a + 1e6, b + 1e6, 1.0)["ssim"]
+        self.assertLess(found, 1)
+        c2 = 0.03 ** 2
+        gauss = lambda values: gaussian_filter(values, 1.5, truncate=3.5)
+        x, y = a[:, :, 0], b[:, :, 0]
+        covariance = gauss(x * y) - gauss(x) * gauss(y)
+        both = gauss(x * x) - gauss(x) ** 2 + gauss(y * y) - gauss(y) ** 2
+        expected = ((2 * covariance + c2) / (both + c2))[5:-5, 5:-5].mean()
+        self.assertAlmostEqual(found, expected, places=11)
+
+    def test_from_deviations_is_scikit_images(self):
+        a, b = noisy_pair(80, 50, 1)
+        _, expected = structural_similarity(
+            a[:, :, 0], b[:, :, 0], data_range=1.0, gaussian_weights=True, sigma=1.5,
+            use_sample_covariance=False, full=True)
+        found = ssim.ssim_from_deviations(a[:, :, 0], b[:, :, 0], 1.0)
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12)
+
     def test_too_small_or_not_finite_has_no_value(self):
         a, b = noisy_pair(10, 41)
         self.assertIsNone(ssim.ssim(a, b, 1.0)["ssim"])
@@ -68,6 +104,10 @@ class Ssim(unittest.TestCase):
         found = ssim.ssim(a, b, 1.0)
         self.assertIsNone(found["ssim"])
         self.assertIn("NaN", found["reason"])
+        b[3, 4, 0] = 1e300
+        found = ssim.ssim(a, b, 1.0)
+        self.assertIsNone(found["ssim"])
+        self.assertIn("too large", found["reason"])
 
     def test_smallest_image_that_has_a_value(self):
         a, b = noisy_pair(11, 11)

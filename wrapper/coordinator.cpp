@@ -1,6 +1,7 @@
 #include "coordinator.h"
 
 #include "failure.h"
+#include "never_back.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +33,7 @@ Coordinator::Coordinator(CoordinatorSetup setup, Transport& transport, Canvas& c
       transport_(transport),
       canvas_(canvas),
       journal_(journal),
-      clock_(std::move(clock)),
+      clock_(never_back(std::move(clock))),
       schedule_(setup_.policy, ids_of(setup_.partition), lanes_of(setup_.ranks), setup_.costs),
       overlap_(setup_.partition, canvas.layout()),
       seams_(overlap_.seams().size()),

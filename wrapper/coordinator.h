@@ -42,7 +42,8 @@ nlohmann::json about_section(const SectionRecord& record);
 
 class Coordinator {
   public:
-    // `clock` gives seconds since the run began; `journal` may be null.
+    // `clock` gives seconds since the run began, and may jump (never_back.h); `journal` may be
+    // null.
     Coordinator(CoordinatorSetup setup, Transport& transport, Canvas& canvas, Journal* journal,
                 std::function<double()> clock);
 
@@ -116,7 +117,7 @@ class Coordinator {
     void take_failed(const Message& message);
     void check_seam(int seam);
     void check_repair(Progress& repair);
-    void repair(int seam, int halo);
+    void repair(int seam, int too_small);
     Source source_of(const Message& message);
     void set_fraction(Progress& progress, double fraction);
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <memory>
+#include <random>
 #include <string>
 
 namespace mpipov {
@@ -81,6 +83,35 @@ TEST(CoordinatorCopies, ACopyIsAnotherChance) {
             return std::string(a.attempt == 2 ? "at once" : "");
         };
     });
+}
+
+// The coordinator's clock goes back by days, or ahead, once or all the time: no section waits for
+// it to come back, the one of a rank that is stuck neither, and no time is less than none.
+TEST(CoordinatorClock, JumpsHoldNothingUp) {
+    constexpr int most_steps = 200'000;
+    for (unsigned seed = 1; seed <= 60; ++seed) {
+        RigSetup setup = setup_with(seed);
+        setup.worker.stuck = [](int rank, const Assignment& a) {
+            return rank == 2 && a.section.id > 2;
+        };
+        auto looks = std::make_shared<int>(0);
+        auto random = std::make_shared<std::mt19937>(seed);
+        const double jump = seed % 2 == 0 ? -1e6 : 1e9;
+        const bool again = seed % 3 == 0;
+        setup.clock_jump = [=] {
+            if (++*looks == 30) return jump;
+            return again && (*random)() % 7 == 0 ? (*random)() % 2 == 0 ? -1e5 : 1e5 : 0.0;
+        };
+        Rig rig(setup);
+        rig.coordinator().start();
+        int steps = 0;
+        while (!rig.coordinator().finished() && ++steps < most_steps) rig.step();
+        ASSERT_TRUE(rig.coordinator().finished()) << "seed " << seed;
+        EXPECT_TRUE(holds_known_picture(rig.canvas(), setup.grid.region));
+        for (const SectionRecord& section : rig.record().sections)
+            EXPECT_GE(section.end, section.start);
+        for (const RankRecord& rank : rig.record().ranks) EXPECT_GE(rank.busy_seconds, 0);
+    }
 }
 
 TEST(CoordinatorCopies, StaticAndHonestRanksMakeNone) {

@@ -34,11 +34,13 @@ void Coordinator::take_repair_band(Progress& progress, const Rect& rect,
 void Coordinator::check_seam(int seam) {
     SeamRecord& record = seams_[static_cast<std::size_t>(seam)];
     record = overlap_.compare(seam, canvas_);
-    if (record.differing > 0) repair(seam, record.halo * 2);
+    if (record.differing > 0) repair(seam, record.halo);
 }
 
-void Coordinator::repair(int seam, int halo) {
-    if (halo > setup_.widest_halo) return;
+// With twice the halo that was not enough.
+void Coordinator::repair(int seam, int too_small) {
+    if (too_small > setup_.widest_halo / 2) return;
+    const int halo = 2 * too_small;
     Progress again;
     again.seam = seam;
     again.record.section = repair_section(static_cast<int>(sections_.size()),
@@ -56,7 +58,7 @@ void Coordinator::check_repair(Progress& done) {
     const int seam = done.seam;
     SeamRecord& record = seams_[static_cast<std::size_t>(seam)];
     record.halo = found.halo;
-    if (found.differing > 0) repair(seam, found.halo * 2);
+    if (found.differing > 0) repair(seam, found.halo);
 }
 
 void Coordinator::place_repairs() {

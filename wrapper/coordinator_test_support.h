@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <memory>
 #include <random>
 #include <utility>
@@ -24,8 +25,9 @@ struct RigSetup {
     int in_flight = 1;
     int retries = 2;
     int widest_halo = 32;
-    bool copies = false;        // whether idle ranks copy the last sections
-    double clock_step = 0.001;  // seconds, each time that somebody looks
+    bool copies = false;                      // whether idle ranks copy the last sections
+    double clock_step = 0.001;                // seconds, each time that somebody looks
+    std::function<double()> clock_jump = {};  // seconds besides, each time; empty: none
     FakeWorkerSetup worker = {};
     unsigned seed = 1;
     std::string cache = {};
@@ -43,7 +45,10 @@ class Rig {
                    setup.frame_height > 0 ? setup.frame_height : setup.grid.region.y1,
                    known_channels, Depth::uint8}),
           coordinator_(coordinator_setup(setup, canvas_), ranks_.at(0), canvas_, setup.journal,
-                       [this, setup] { return now_ += setup.clock_step; }) {
+                       [this, setup] {
+                           if (setup.clock_jump) now_ += setup.clock_jump();
+                           return now_ += setup.clock_step;
+                       }) {
         for (int rank = 0; rank < setup.workers; ++rank)
             workers_.emplace_back(ranks_.at(rank), setup.worker);
     }

@@ -38,7 +38,7 @@ class Cutter {
     }
 
   private:
-    int unit() const { return grid_.seams == Seams::aligned ? grid_.block : least_side; }
+    long long unit() const { return grid_.seams == Seams::aligned ? grid_.block : least_side; }
 
     std::optional<std::pair<Piece, Piece>> halve(const Piece& whole, bool across) const {
         const Rect& r = whole.rect;
@@ -46,7 +46,9 @@ class Cutter {
         const int origin = across ? grid_.region.x0 : grid_.region.y0;
         std::optional<std::pair<Piece, Piece>> best;
         // The grid begins where the region does: r's own edges lie on it.
-        for (int at = origin + ((from - origin) / unit() + 1) * unit(); at < to; at += unit()) {
+        for (long long next = origin + ((from - origin) / unit() + 1) * unit(); next < to;
+             next += unit()) {
+            const int at = static_cast<int>(next);
             Rect a = r, b = r;
             (across ? a.x1 : a.y1) = at;
             (across ? b.x0 : b.y0) = at;

@@ -109,10 +109,13 @@ CostMap hill_costs(const Rect& region, double cpu_seconds) {
     double sum = 0;
     for (int j = 0; j < down; ++j)
         for (int i = 0; i < across; ++i) {
-            const Rect rect{region.x0 + region.width() * i / across,
-                            region.y0 + region.height() * j / down,
-                            region.x0 + region.width() * (i + 1) / across,
-                            region.y0 + region.height() * (j + 1) / down};
+            const auto x_of = [&](long long n) {
+                return region.x0 + static_cast<int>(region.width() * n / across);
+            };
+            const auto y_of = [&](long long n) {
+                return region.y0 + static_cast<int>(region.height() * n / down);
+            };
+            const Rect rect{x_of(i), y_of(j), x_of(i + 1), y_of(j + 1)};
             const double x = (i + 0.5) / across - 0.5, y = (j + 0.5) / down - 0.6;
             const double density = 1 + 9 * std::exp(-(x * x + y * y) / (2 * 0.2 * 0.2));
             patches.push_back({rect, density * static_cast<double>(rect.area())});
@@ -143,8 +146,10 @@ CostMap stretched(const CostMap& costs, const Rect& region) {
 CostMap with_sum(const CostMap& costs, double cpu_seconds) {
     const double sum = costs.cpu_seconds();
     if (!(sum > 0)) throw std::invalid_argument("nothing in the cost map costs anything");
+    if (!std::isfinite(sum)) throw std::invalid_argument("the cost map's sum is no number");
     std::vector<CostPatch> patches = costs.patches();
-    for (CostPatch& patch : patches) patch.cpu_seconds *= cpu_seconds / sum;
+    // In this order, because 1 / sum may be beyond a double.
+    for (CostPatch& patch : patches) patch.cpu_seconds = patch.cpu_seconds / sum * cpu_seconds;
     return {costs.region(), std::move(patches)};
 }
 

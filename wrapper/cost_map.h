@@ -25,6 +25,8 @@ class CostMap {
 
     const Rect& region() const { return region_; }
     const std::vector<CostPatch>& patches() const { return patches_; }
+    // Within 1e-15 of what all costs, for each corner of a rectangle that it is summed from: beside
+    // parts that cost 1e15 times as much, what a part costs is not told from nothing.
     double cpu_seconds(const Rect& rect) const;
     double cpu_seconds() const { return cpu_seconds(region_); }
 
@@ -46,7 +48,8 @@ CostMap hill_costs(const Rect& region, double cpu_seconds);
 // The same for another size or part of the same picture.
 CostMap stretched(const CostMap& costs, const Rect& region);
 
-// The same with another sum. Throws std::invalid_argument where nothing in it costs anything.
+// The same with another sum. Throws std::invalid_argument where nothing in it costs anything, and
+// where all together is beyond a double.
 CostMap with_sum(const CostMap& costs, double cpu_seconds);
 
 // Of a finished run's sections, without `per_launch` CPU seconds of each. Throws

@@ -14,6 +14,7 @@ constexpr double live_interval = 0.2;    // seconds between two looks of a live 
 constexpr double plain_interval = 10.0;  // between two plain lines
 constexpr double plain_step = 0.1;       // or this much progress, whichever comes first
 constexpr double shortest_estimate = 1.0;
+constexpr double longest_estimate = 1e9;  // seconds; who knows more than thirty years ahead
 
 std::string duration(double seconds) {
     const auto all = static_cast<long long>(std::llround(seconds));
@@ -30,8 +31,10 @@ std::string progress_line(double fraction, int sections_done, int sections, doub
     std::string line =
         fmt::format("{:.0f} %, {} of {} sections", std::min(std::floor(fraction * 100), most),
                     sections_done, sections);
-    if (fraction > 0 && fraction < 1 && seconds > shortest_estimate)
-        line += fmt::format(", {} left", duration(seconds * (1 - fraction) / fraction));
+    if (fraction > 0 && fraction < 1 && seconds > shortest_estimate) {
+        const double left = seconds * (1 - fraction) / fraction;
+        if (left < longest_estimate) line += fmt::format(", {} left", duration(left));
+    }
     return line;
 }
 
@@ -70,6 +73,8 @@ void ProgressView::update_gathering(int wave, int waves, double fraction, double
 void ProgressView::show(double fraction, double seconds,
                         const std::function<std::string()>& line_of) {
     if (style_ == ProgressStyle::none) return;
+    // A clock that went back must not silence it.
+    if (seconds < last_update_) last_update_ = seconds;
     const bool due =
         live_ ? seconds - last_update_ >= live_interval
               : fraction != last_fraction_ && (seconds - last_update_ >= plain_interval ||

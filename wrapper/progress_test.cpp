@@ -44,6 +44,22 @@ TEST(Progress, LineGuessesNothingAtTheEnds) {
     EXPECT_EQ(progress_line(0.5, 2, 4, 0.5), "50 %, 2 of 4 sections");
 }
 
+TEST(Progress, LineGuessesNothingThatNobodyKnows) {
+    EXPECT_EQ(progress_line(1e-300, 0, 4, 100), "0 %, 0 of 4 sections");
+    EXPECT_EQ(progress_line(5e-324, 0, 4, 1e300), "0 %, 0 of 4 sections");
+    EXPECT_EQ(progress_line(0.5, 0, 4, -100), "50 %, 0 of 4 sections");
+}
+
+TEST(Progress, AClockThatGoesBackSilencesNothing) {
+    const std::string text = printed([] {
+        ProgressView view(ProgressStyle::plain);
+        view.update(0.01, 0, 1, 1e6);
+        for (int i = 0; i <= 60; ++i) view.update(0.01 + i * 0.001, 0, 1, i);
+    });
+    EXPECT_GE(lines(text), 6);
+    EXPECT_LE(lines(text), 8);
+}
+
 TEST(Progress, NotFinishedIsNeverAHundred) {
     EXPECT_THAT(progress_line(0.9999, 15, 16, 0), testing::StartsWith("99 %"));
 }

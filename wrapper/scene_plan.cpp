@@ -42,8 +42,10 @@ struct Choice {
 Choice cheapest(const CostModel& cost, int lanes, int threads, long long most) {
     Choice best;
     const auto limit = std::min<long long>(most, 64LL * lanes);
+    // Clamped as doubles: what an absurd time is divided by is beyond a whole number.
+    const double by_length = std::round(cost.render / threads / longest_section_seconds);
     const int fewest =
-        clamp_to(std::llround(cost.render / threads / longest_section_seconds), 1, limit);
+        static_cast<int>(std::clamp(by_length, 1.0, std::max(1.0, static_cast<double>(limit))));
     best = {fewest, threads, cost.wall_seconds(fewest, lanes, threads)};
     for (int n = fewest + 1; n <= limit; ++n) {
         const double wall = cost.wall_seconds(n, lanes, threads);

@@ -11,6 +11,11 @@ bool contains(const std::vector<int>& workers, int worker) {
     return std::find(workers.begin(), workers.end(), worker) != workers.end();
 }
 
+// Comparing with what is no number is no order.
+double sane_cost(double cost) {
+    return cost > 0 ? cost : 0;
+}
+
 }  // namespace
 
 std::string_view to_string(Policy policy) {
@@ -33,7 +38,7 @@ Schedule::Schedule(Policy policy, const std::vector<int>& sections, const std::v
     if (!costs.empty() && costs.size() != sections.size())
         throw std::invalid_argument("each section has one cost");
     for (std::size_t i = 0; i < sections.size(); ++i)
-        entries_[sections[i]].cost = costs.empty() ? 0 : costs[i];
+        entries_[sections[i]].cost = costs.empty() ? 0 : sane_cost(costs[i]);
     unfinished_ = static_cast<int>(entries_.size());
     if (policy != Policy::static_) {
         shared_.assign(sections.begin(), sections.end());
@@ -89,7 +94,7 @@ std::optional<int> Schedule::next_copy(int worker,
             contains(entry.failed_on, worker))
             continue;
         const Outlook seconds = outlook(section);
-        if (seconds.anew >= seconds.left || seconds.left <= longest) continue;
+        if (!(seconds.anew < seconds.left && seconds.left > longest)) continue;
         last = section;
         longest = seconds.left;
     }
@@ -113,7 +118,7 @@ void Schedule::sort_by_cost() {
 }
 
 void Schedule::expect(int section, double cost) {
-    entries_.at(section).cost = cost;
+    entries_.at(section).cost = sane_cost(cost);
     sorted_ = false;
 }
 

@@ -29,7 +29,8 @@ class Schedule {
   public:
     // `lanes[w]`: how many sections worker w renders at once; 0 for one that renders nothing.
     // `costs[i]`: what sections[i] is expected to take, in any unit; only Policy::cost looks at
-    // them, and without them it is Policy::dynamic.
+    // them, and without them it is Policy::dynamic. Any number will do: an infinite cost comes
+    // first, one that is less than nothing or no number counts as 0.
     // Throws std::invalid_argument where no worker renders or `costs` has another length.
     Schedule(Policy policy, const std::vector<int>& sections, const std::vector<int>& lanes,
              const std::vector<double>& costs = {});
@@ -39,7 +40,8 @@ class Schedule {
 
     // When next() has nothing left: a second copy of the section that would end last, if the worker
     // would have it earlier from its start. There are never more than two of a section, and none
-    // with Policy::static_, which is to be MPIPOV1. The copy is then under way too.
+    // with Policy::static_, which is to be MPIPOV1. The copy is then under way too. Of an outlook
+    // that is no number nothing is copied.
     std::optional<int> next_copy(int worker, const std::function<Outlook(int section)>& outlook);
 
     // Whether it was handed out or not: it never is again.

@@ -14,10 +14,13 @@ namespace {
 // A length that is cut in units: grid cells of `unit` pixels with aligned seams, else single
 // pixels.
 struct Axis {
-    int begin = 0, end = 0, unit = 1;
+    int begin = 0, end = 0;
+    long long unit = 1;  // a render block may be larger than any image
 
-    int units() const { return (end - begin + unit - 1) / unit; }
-    int pixel(int units_from_begin) const { return std::min(end, begin + units_from_begin * unit); }
+    int units() const { return static_cast<int>((end - begin + unit - 1) / unit); }
+    int pixel(int units_from_begin) const {
+        return static_cast<int>(std::min<long long>(end, begin + units_from_begin * unit));
+    }
 };
 
 Axis horizontal_axis(const GridRequest& request) {
@@ -74,7 +77,7 @@ std::vector<Rect> cut_tiles(const GridRequest& request) {
     const int wanted = request.sections;
     const double aspect =
         static_cast<double>(request.region.height()) / static_cast<double>(request.region.width());
-    const int fewest_rows = (wanted + across.units() - 1) / across.units();
+    const int fewest_rows = (wanted - 1) / across.units() + 1;
     const int most_rows = std::min(down.units(), wanted);
     const int rows = std::clamp(static_cast<int>(std::lround(std::sqrt(wanted * aspect))),
                                 fewest_rows, most_rows);
@@ -124,7 +127,14 @@ Rect intersect(const Rect& a, const Rect& b) {
 }
 
 Rect grow(const Rect& r, int margin, const Rect& bounds) {
-    return intersect({r.x0 - margin, r.y0 - margin, r.x1 + margin, r.y1 + margin}, bounds);
+    // A margin may be larger than any image.
+    const auto down = [margin](int at, int least) {
+        return static_cast<int>(std::max<long long>(least, static_cast<long long>(at) - margin));
+    };
+    const auto up = [margin](int at, int most) {
+        return static_cast<int>(std::min<long long>(most, static_cast<long long>(at) + margin));
+    };
+    return {down(r.x0, bounds.x0), down(r.y0, bounds.y0), up(r.x1, bounds.x1), up(r.y1, bounds.y1)};
 }
 
 std::string_view to_string(Shape shape) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <queue>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -297,6 +298,8 @@ VirtualOutcome Simulation::outcome() {
         now = event.time;
         take(event);
     }
+    if (!schedule_.all_finished())
+        throw std::invalid_argument("the run has no end: a rank's speed is next to nothing");
     result_.wall_seconds = now + run_.terms.after.value_or(0);
     result_.launches = static_cast<int>(launches_.size());
     for (std::size_t rank = 0; rank < ranks_.size(); ++rank)

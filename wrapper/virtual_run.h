@@ -76,10 +76,12 @@ struct VirtualOutcome {
 // Their names, as they are told.
 std::vector<std::string_view> terms_on(const VirtualTerms& terms);
 
-// Throws std::invalid_argument where something is negative, no number or of the wrong length.
+// Throws std::invalid_argument where something is negative, no number, more than 1e15 seconds or of
+// the wrong length.
 void check(const VirtualRun& run);
 
-// Throws std::invalid_argument as check() does, and where no rank can render.
+// Throws std::invalid_argument as check() does, where no rank can render, and where the end
+// is beyond a double.
 VirtualOutcome run_virtually(const VirtualRun& run);
 
 }  // namespace mpipov

@@ -12,8 +12,11 @@ void require(bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(what);
 }
 
+// Beyond that the clock, a double, would stand still: and 1e15 s are thirty million years.
+constexpr double longest_seconds = 1e15;
+
 bool sane(double seconds) {
-    return std::isfinite(seconds) && seconds >= 0;
+    return seconds >= 0 && seconds <= longest_seconds;
 }
 
 }  // namespace
@@ -26,9 +29,9 @@ void check(const VirtualRun& run) {
           terms.answer_seconds.value_or(0), terms.service_seconds.value_or(0),
           terms.rank0_cpu_seconds.value_or(0), terms.before.value_or(0), terms.after.value_or(0),
           terms.network ? terms.network->latency : 0})
-        require(sane(seconds), "a time is negative or no number");
+        require(sane(seconds), "a time is negative, no number or longer than 1e15 s");
     require(std::ranges::all_of(run.section_cpu, sane),
-            "a section's cost is negative or no number");
+            "a section's cost is negative, no number or more than 1e15 s");
     require(run.threads >= 1, "a launch has at least one thread");
     for (const VirtualRank& rank : run.ranks)
         require(rank.slots >= 0 && rank.in_flight >= 1 && sane(rank.speed) && rank.speed > 0,
@@ -38,6 +41,8 @@ void check(const VirtualRun& run) {
         require(terms.network->section_bytes.empty() ||
                     terms.network->section_bytes.size() == run.section_cpu.size(),
                 "each section has its bytes");
+        require(std::ranges::all_of(terms.network->section_bytes, sane),
+                "a section has less than no bytes, or too many");
     }
 }
 
