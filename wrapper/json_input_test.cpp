@@ -29,7 +29,7 @@ TEST(JsonInput, WhatLacksOrIsOtherwiseIsNamed) {
     EXPECT_EQ(member<int>({{"a", 7}}, "a"), 7);
     EXPECT_EQ(said_of({{"a", 7}}, "b"), "it lacks 'b'");
     EXPECT_EQ(said_of(json::array(), "b"), "it lacks 'b'");
-    EXPECT_EQ(said_of({{"a", "7"}}, "a"), "its 'a': type must be number, but is string");
+    EXPECT_EQ(said_of({{"a", "7"}}, "a"), "its 'a': must be a whole number, but is string");
 }
 
 }  // namespace

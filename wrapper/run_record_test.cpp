@@ -95,7 +95,7 @@ TEST(RunRecord, NamesWhatIsOfAnotherKind) {
         run_from_json(json);
         FAIL() << "accepted words for a number";
     } catch (const std::runtime_error& error) {
-        EXPECT_STREQ(error.what(), "its 'launches': type must be number, but is string");
+        EXPECT_STREQ(error.what(), "its 'launches': must be a whole number, but is string");
     }
 }
 
