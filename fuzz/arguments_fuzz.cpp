@@ -20,9 +20,12 @@ void check_quotes(const std::string& argument) {
     require(once.size() == argument.size() + 2, "two marks are added");
     const char mark = once.back();
     require(mark == '"' || mark == '\'', "a mark is a quotation mark");
-    const auto open = once.find(mark);
-    require(once.substr(0, open) + once.substr(open + 1, once.size() - open - 2) == argument,
-            "without its marks it is what it was");
+    // What stands before the opening one may hold the same mark.
+    bool same = false;
+    for (std::size_t open = once.find(mark); open + 1 < once.size() && !same;
+         open = once.find(mark, open + 1))
+        same = once.substr(0, open) + once.substr(open + 1, once.size() - open - 2) == argument;
+    require(same, "without its marks it is what it was");
 }
 
 void check_names(const std::vector<std::string>& names, std::string_view text) {
