@@ -108,7 +108,7 @@ def judge(pair, mine, peers, model, traits):
             else:
                 same = agrees_with_scikit_image(mine[metric], theirs)
                 cause = scikit_image_cause(metric, mine[metric], theirs, traits["finite"])
-            agree[metric][peer] = same or CAUSES.get(cause, "unknown")
+            agree[metric][peer] = same or f"{peer}: {CAUSES.get(cause, 'unknown')}"
             expected = known.get(f"{peer}.{metric}")
             if cause == "float" and expected is None and not same:
                 continue  # rounding, of this machine's numpy too
@@ -123,6 +123,12 @@ def judge(pair, mine, peers, model, traits):
 def number(value):
     """As JSON has it; infinite and NaN as text."""
     return value if value is None or math.isfinite(value) else str(value)
+
+
+def summary(by_peer):
+    """True, or why not."""
+    causes = [verdict for verdict in by_peer.values() if verdict is not True]
+    return "; ".join(causes) if causes else True
 
 
 def compare(pair, index, programs, folder):
@@ -147,16 +153,18 @@ def compare(pair, index, programs, folder):
             "ours": mine,
             "scikit_image": {key: number(value) for key, value in peers["scikit_image"].items()},
             "idiff": {key: number(float(value)) for key, value in peers["idiff"].items()},
-            "agree": agree}, wrong
+            "agree": {metric: summary(by_peer) for metric, by_peer in agree.items()},
+            "comparisons": sum(map(len, agree.values())),
+            "agreements": sum(verdict is True for by_peer in agree.values()
+                              for verdict in by_peer.values())}, wrong
 
 
 def line(entry):
     sides = [f"{entry['name']:14}"]
     for metric in METRICS:
-        verdicts = entry["agree"][metric].values()
         mine = entry["ours"][metric]
         sides.append(f"{metric} {'-' if mine is None else digits(mine):>11} "
-                     + ("same " if all(verdict is True for verdict in verdicts) else "cause"))
+                     + ("same " if entry["agree"][metric] is True else "cause"))
     return "  ".join(sides)
 
 
@@ -168,9 +176,8 @@ def check(programs, work, record):
         print(line(entry), flush=True)
         entries.append(entry)
         wrong += found
-    agreements = sum(verdict is True for entry in entries
-                     for by_peer in entry["agree"].values() for verdict in by_peer.values())
-    every = sum(len(by_peer) for entry in entries for by_peer in entry["agree"].values())
+    agreements, every = (sum(entry[key] for entry in entries)
+                         for key in ("agreements", "comparisons"))
     print(f"{len(entries)} pairs, {every} comparisons: {agreements} agree, "
           f"{every - agreements} differ")
     if wrong:
