@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include <istream>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace mpipov {
 
@@ -32,14 +32,12 @@ const nlohmann::json& member(const nlohmann::json& object, const std::string& ke
 template <class T>
 T whole_number(const nlohmann::json& value) {
     static_assert(std::is_integral_v<T> && std::is_signed_v<T>);
-    using Limits = std::numeric_limits<T>;
     if (!value.is_number_integer())
         throw std::runtime_error(fmt::format("must be a whole number, but is {}",
                                              value.is_number() ? "a fraction" : value.type_name()));
-    // What is unsigned is so because it is positive, and may be more than the largest signed one.
-    const bool fits = value.is_number_unsigned()
-                          ? value.get<std::uint64_t>() <= std::uint64_t{Limits::max()}
-                          : value.get<std::int64_t>() >= Limits::min();
+    // An unsigned one may be more than the largest signed one.
+    const bool fits = value.is_number_unsigned() ? std::in_range<T>(value.get<std::uint64_t>())
+                                                 : std::in_range<T>(value.get<std::int64_t>());
     if (!fits) throw std::runtime_error(fmt::format("is out of range: {}", value.dump()));
     return static_cast<T>(value.get<std::int64_t>());
 }
