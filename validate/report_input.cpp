@@ -23,7 +23,6 @@ using nlohmann::json;
 using Type = json::value_t;
 
 constexpr int version = 1;
-constexpr int deepest = 64;  // far deeper than any result is: json's own output recurses
 
 struct Part {
     std::string_view name;
@@ -49,11 +48,7 @@ constexpr std::array<Part, 1> noise_parts{{{"noise", Type::object}}};
 json parse(const fs::path& file) {
     std::ifstream in(file);
     if (!in) throw std::system_error(errno, std::generic_category(), "cannot be read");
-    return json::parse(in, [](int depth, json::parse_event_t /*event*/, json& /*parsed*/) {
-        if (depth > deepest)
-            throw Failure(Exit::file, fmt::format("is nested more than {} deep", deepest));
-        return true;
-    });
+    return parse_json(in);
 }
 
 template <std::size_t N>

@@ -1,5 +1,6 @@
 #include "result_file.h"
 
+#include "json_input.h"
 #include "json_output.h"
 
 #include <fstream>
@@ -12,8 +13,8 @@ ResultFile::ResultFile(std::filesystem::path file, bool (*holds_results)(const j
     : file_(std::move(file)) {
     try {
         std::ifstream in(file_);
-        keeps_earlier_ = in && holds_results(json::parse(in));
-    } catch (const json::exception&) {
+        keeps_earlier_ = in && holds_results(parse_json(in));
+    } catch (const std::exception&) {
         keeps_earlier_ = false;
     }
 }

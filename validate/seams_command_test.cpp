@@ -276,7 +276,7 @@ TEST_F(RenderPrograms, SerialRendersServeAgain) {
     refused("{", "parse error");
     json bad = good;
     bad["wanted"] = "four";
-    refused(bad.dump(), "its 'wanted': type must be number, but is string");
+    refused(bad.dump(), "its 'wanted': must be a whole number, but is string");
     bad = good;
     bad["references"]["default"].erase("image");
     refused(bad.dump(), "it lacks 'image'");

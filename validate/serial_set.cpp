@@ -7,6 +7,7 @@
 #include "probe.h"
 #include "scratch.h"
 #include "seam_judge.h"
+#include "serial_manifest.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,7 +20,6 @@ namespace mpipov {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 std::string why_no_noise(const NoiseRenders& found) {
     if (found.exact)
@@ -35,33 +35,32 @@ std::string why_no_noise(const NoiseRenders& found) {
     return {};
 }
 
-SerialRender read_render(const json& j, const fs::path& folder) {
+SerialRender as_render(const ListedRender& listed, const fs::path& folder) {
     SerialRender render;
-    render.name = member<std::string>(j, "name");
-    render.argv = member<std::vector<std::string>>(j, "argv");
-    render.image = folder / member<std::string>(j, "image");
-    render.wall_seconds = member<double>(j, "seconds");
-    render.cpu_seconds = member<double>(j, "cpu_seconds");
+    render.name = listed.name;
+    render.argv = listed.argv;
+    render.image = folder / listed.image;
+    render.wall_seconds = listed.wall_seconds;
+    render.cpu_seconds = listed.cpu_seconds;
     if (!fs::exists(render.image))
         throw std::runtime_error(fmt::format("'{}' is not there", render.image.string()));
     return render;
 }
 
-json parse_file(const fs::path& file) {
+SerialManifest read_manifest(const fs::path& file) {
     std::ifstream in(file);
     if (!in) throw std::runtime_error("there is no such file");
-    return json::parse(in);
+    return manifest_from_json(parse_json(in));
 }
 
 // What is not as `request` asks for, as far as it is said without asking POV-Ray; empty: nothing.
-std::string mismatch(const json& j, const SerialRequest& request) {
-    const auto arguments = member<std::vector<std::string>>(j, "arguments");
-    if (arguments != request.arguments)
-        return fmt::format("rendered with other arguments: {}", fmt::join(arguments, " "));
-    if (const int had = member<int>(j, "wanted"); had < request.renders)
-        return fmt::format("only {} renders to tell noise by, not {}", had, request.renders);
-    if (request.one_block && member<bool>(j, "method_1") &&
-        !member(j, "references").contains("oneblock"))
+std::string mismatch(const SerialManifest& manifest, const SerialRequest& request) {
+    if (manifest.arguments != request.arguments)
+        return fmt::format("rendered with other arguments: {}", fmt::join(manifest.arguments, " "));
+    if (manifest.wanted < request.renders)
+        return fmt::format("only {} renders to tell noise by, not {}", manifest.wanted,
+                           request.renders);
+    if (request.one_block && manifest.method_1 && !manifest.references.contains("oneblock"))
         return "without the reference in one block";
     return {};
 }
@@ -123,7 +122,7 @@ SerialSet render_serial_set(const SerialRequest& request, const fs::path& folder
 SerialSet read_serial_set(const SerialRequest& request, const fs::path& folder) {
     const fs::path file = folder / "noise.json";
     try {
-        const json j = parse_file(file);
+        const SerialManifest manifest = read_manifest(file);
         const auto require_none = [&](const std::string& wrong) {
             if (!wrong.empty())
                 throw Failure(Exit::usage,
@@ -131,23 +130,20 @@ SerialSet read_serial_set(const SerialRequest& request, const fs::path& folder) 
                                           "with mpipov-validate noise --out",
                                           folder.string(), wrong));
         };
-        require_none(mismatch(j, request));
+        require_none(mismatch(manifest, request));
         SerialSet set;
-        for (const auto& [name, render] : member(j, "references").items()) {
-            SerialRender& reference = set.references[name] = read_render(render, folder);
-            reference.report.antialiasing.on = member<bool>(j, "method_1");
+        for (const auto& [name, render] : manifest.references) {
+            SerialRender& reference = set.references[name] = as_render(render, folder);
+            reference.report.antialiasing.on = manifest.method_1;
         }
-        if (!set.references.contains("default"))
-            throw std::runtime_error("its 'references' lack 'default'");
-        const json& noise = member(j, "noise");
-        set.noise.why_not = noise.value("why_not", noise.value("why_not_enough", ""));
-        set.noise.exact = member<bool>(j, "exact");
-        set.noise.tried = member<int>(noise, "tried");
-        for (const json& render : noise.value("renders", json::array()))
-            set.noise.renders.push_back({read_render(render, folder), {}});
+        set.noise.why_not = manifest.why_not;
+        set.noise.exact = manifest.exact;
+        set.noise.tried = manifest.tried;
+        for (const ListedRender& render : manifest.renders)
+            set.noise.renders.push_back({as_render(render, folder), {}});
 
         set.scene = ask_scene(request.arguments, request.povray);
-        const std::string what = what_changed(member(j, "identity"), set.scene.identity);
+        const std::string what = what_changed(manifest.identity, set.scene.identity);
         require_none(what.empty() ? "" : fmt::format("of another state of the scene: {}", what));
         compare_noise(set, {});
         return set;

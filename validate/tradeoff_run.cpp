@@ -2,6 +2,7 @@
 
 #include "host_cpu.h"
 #include "interrupt.h"
+#include "json_input.h"
 #include "result_file.h"
 #include "run_image.h"
 #include "scratch.h"
@@ -80,7 +81,7 @@ class Sweeper {
         if (!file_.keeps_earlier()) return;
         try {
             std::ifstream in(request_.folder / "tradeoff.json");
-            const json earlier = json::parse(in);
+            const json earlier = parse_json(in);
             const std::string changed = what_changed_since(report_, earlier);
             if (!changed.empty()) {
                 fmt::print(stderr, "measuring all again: {}\n", changed);

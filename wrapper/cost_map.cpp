@@ -1,5 +1,7 @@
 #include "cost_map.h"
 
+#include "json_input.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -163,17 +165,15 @@ CostMap costs_of_run(const RunRecord& record, double per_launch) {
 
 CostMap cost_map_from_json(const nlohmann::json& json) {
     try {
-        if (json.at("format") != "mpipov-costs" || json.at("version") != 1)
+        if (member(json, "format") != "mpipov-costs" || member(json, "version") != 1)
             throw std::runtime_error("not a cost map (\"format\": \"mpipov-costs\", version 1)");
         std::vector<CostPatch> patches;
-        for (const nlohmann::json& one : json.at("rectangles"))
-            patches.push_back({{one.at("x0").get<int>(), one.at("y0").get<int>(),
-                                one.at("x1").get<int>(), one.at("y1").get<int>()},
-                               one.at("cpu_seconds").get<double>()});
-        return {{0, 0, json.at("width").get<int>(), json.at("height").get<int>()},
+        for (const nlohmann::json& one : member(json, "rectangles"))
+            patches.push_back({{member<int>(one, "x0"), member<int>(one, "y0"),
+                                member<int>(one, "x1"), member<int>(one, "y1")},
+                               member<double>(one, "cpu_seconds")});
+        return {{0, 0, member<int>(json, "width"), member<int>(json, "height")},
                 std::move(patches)};
-    } catch (const nlohmann::json::exception& error) {
-        throw std::runtime_error(fmt::format("not a cost map: {}", error.what()));
     } catch (const std::invalid_argument& error) {
         throw std::runtime_error(error.what());
     }
@@ -183,7 +183,7 @@ CostMap read_cost_map(const std::filesystem::path& file) {
     std::ifstream in(file);
     if (!in) throw std::runtime_error(fmt::format("cannot read '{}'", file.string()));
     try {
-        return cost_map_from_json(nlohmann::json::parse(in));
+        return cost_map_from_json(parse_json(in));
     } catch (const std::exception& error) {
         throw std::runtime_error(fmt::format("cannot read '{}': {}", file.string(), error.what()));
     }

@@ -93,7 +93,9 @@ TEST(CostMap, IsReadFromJsonAndRefusesWhatIsNone) {
     refused("/format", "mpipov-run", "mpipov-costs");
     refused("/version", 2, "version 1");
     refused("/width", 0, "at least one pixel");
-    refused("/rectangles/0/x1", "wide", "not a cost map");
+    refused("/rectangles/0/x1", "wide", "its 'x1': must be a whole number");
+    refused("/width", 4294967336, "out of range");
+    refused("/rectangles", 7, "it lacks");
     refused("/rectangles/0/x1", 21, "within the image");
     refused("/rectangles/0/y1", 6, "overlaps");
     refused("/rectangles/1/cpu_seconds", -1, "less than nothing");

@@ -2,6 +2,7 @@
 
 #include "failure.h"
 #include "job_identity.h"
+#include "json_input.h"
 #include "sha1_digits.h"
 
 #include <fmt/format.h>
@@ -10,8 +11,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdlib>
+#include <charconv>
 #include <cstring>
+#include <functional>
+#include <optional>
 #include <utility>
 
 namespace mpipov {
@@ -23,6 +26,7 @@ constexpr std::string_view journal_name = "journal.json";
 constexpr std::string_view sections_name = "sections.jsonl";
 constexpr std::string_view pixels_extension = ".pixels";
 constexpr std::string_view cache_extension = ".cache";
+constexpr const char* folders_key = "folders made";
 constexpr int format_version = 2;
 
 [[noreturn]] void cannot(const char* what, const std::filesystem::path& file) {
@@ -65,12 +69,17 @@ void end_last_line(const std::filesystem::path& file) {
 // Null where there is none, or it is no journal of ours.
 json read_head(const std::filesystem::path& folder) {
     std::ifstream in(folder / journal_name);
-    json head = json::parse(in, nullptr, false);
-    const bool whole = head.is_object() && head.value("format", json()) == "mpipov-journal" &&
-                       head.value("version", json()) == format_version &&
-                       head.contains("identity") && head.contains("plan") &&
-                       head.value("folders made", json()).is_number_integer();
-    return whole ? head : json();
+    try {
+        json head = parse_json(in);
+        member<int>(head, folders_key, 0);
+        member(head, "identity");
+        member(head, "plan");
+        if (member(head, "format") == "mpipov-journal" && member(head, "version") == format_version)
+            return head;
+    } catch (const std::runtime_error&) {
+        // Damaged, as far as a journal goes.
+    }
+    return {};
 }
 
 // "a/b/" names the same folder as "a/b", but its parent is another.
@@ -88,8 +97,10 @@ int missing_folders(std::filesystem::path folder) {
     return missing;
 }
 
+// Not past the root, however many a damaged journal asks for.
 void remove_empty_folders(std::filesystem::path folder, int how_many) {
-    for (; how_many > 0; --how_many, folder = folder.parent_path()) ::rmdir(folder.c_str());
+    for (; how_many > 0 && folder.has_relative_path(); --how_many, folder = folder.parent_path())
+        ::rmdir(folder.c_str());
 }
 
 constexpr std::size_t sha1_line = 41;
@@ -99,9 +110,21 @@ std::string sha1_of_text(const std::string& text) {
     return sha1_digits(sha);
 }
 
-bool is_entry(const json& entry) {
-    return entry.is_object() && entry.value("section", json()).is_number_integer() &&
-           entry.value("sha1", json()).is_string() && entry.contains("about");
+struct Entry {
+    int section = 0;
+    std::string sha1;
+    json about;
+};
+
+// Nothing where the line was cut off by the end, or is damaged.
+std::optional<Entry> read_entry(const std::string& line) {
+    try {
+        const json entry = parse_json(std::string_view(line));
+        return Entry{member<int>(entry, "section", 0), member<std::string>(entry, "sha1"),
+                     member(entry, "about")};
+    } catch (const std::runtime_error&) {
+        return {};
+    }
 }
 
 }  // namespace
@@ -126,8 +149,8 @@ Journal Journal::create(const std::filesystem::path& folder, const json& identit
     Journal journal(without_last_slash(folder));
     journal.plan_ = plan;
     // What an interrupted run made in vain is this one's to remove.
-    journal.folders_made_ = earlier.is_null() ? missing_folders(journal.folder_)
-                                              : earlier.at("folders made").get<int>();
+    journal.folders_made_ =
+        earlier.is_null() ? missing_folders(journal.folder_) : member<int>(earlier, folders_key);
     try {
         journal.begin(identity);
     } catch (...) {
@@ -154,7 +177,7 @@ void Journal::begin(const json& identity) {
     std::ofstream out(file);
     out << to_text({{"format", "mpipov-journal"},
                     {"version", format_version},
-                    {"folders made", folders_made_},
+                    {folders_key, folders_made_},
                     {"identity", identity},
                     {"plan", plan_}},
                    2)
@@ -186,7 +209,7 @@ Journal Journal::open(const std::filesystem::path& folder, const json& identity)
                                   change, folder.string()));
     Journal journal(without_last_slash(folder));
     journal.plan_ = stored.at("plan");
-    journal.folders_made_ = stored.at("folders made").get<int>();
+    journal.folders_made_ = member<int>(stored, folders_key);
     end_last_line(folder / sections_name);
     return journal;
 }
@@ -219,18 +242,15 @@ void Journal::finish(int section, const json& about) {
 }
 
 std::vector<Journal::Finished> Journal::finished() const {
-    std::map<int, json> last;  // of a section that was finished twice, the last line counts
+    std::map<int, Entry> last;  // of a section that was finished twice, the last line counts
     std::ifstream in(folder_ / sections_name);
     for (std::string line; std::getline(in, line);) {
-        json entry = json::parse(line, nullptr, false);
-        if (!is_entry(entry)) continue;  // cut off by the end
-        const int section = entry.at("section").get<int>();
-        last[section] = std::move(entry);
+        if (auto entry = read_entry(line)) last.insert_or_assign(entry->section, std::move(*entry));
     }
     std::vector<Finished> finished;
-    for (const auto& [section, entry] : last)
-        if (sha1_of_file(pixel_file(section)) == entry.at("sha1").get<std::string>())
-            finished.push_back({section, entry.at("about")});
+    for (auto& [section, entry] : last)
+        if (sha1_of_file(pixel_file(section)) == entry.sha1)
+            finished.push_back({section, std::move(entry.about)});
     return finished;
 }
 
@@ -259,17 +279,24 @@ void Journal::keep_cache(int waves, const std::string& cache) {
         std::filesystem::remove(cache_file(earlier), ignored);
 }
 
-int Journal::waves_kept() const {
-    int waves = 0;
+std::vector<int> Journal::waves_kept() const {
+    std::vector<int> kept;
     std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored))
-        if (entry.path().extension() == cache_extension && belongs_to_a_journal(entry.path()))
-            waves = std::max(waves, std::atoi(entry.path().stem().c_str()));
-    return waves;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored)) {
+        const std::string digits = entry.path().stem();
+        int waves = 0;
+        const auto [end, error] =
+            std::from_chars(digits.data(), digits.data() + digits.size(), waves);
+        if (entry.path().extension() == cache_extension && error == std::errc() &&
+            end == digits.data() + digits.size() && waves > 0)
+            kept.push_back(waves);
+    }
+    std::ranges::sort(kept, std::greater());
+    return kept;
 }
 
 Journal::Cache Journal::cache() const {
-    for (int waves = waves_kept(); waves > 0; --waves) {
+    for (const int waves : waves_kept()) {
         std::ifstream in(cache_file(waves), std::ios::binary);
         std::string text{std::istreambuf_iterator<char>(in), {}};
         if (text.size() < sha1_line) continue;

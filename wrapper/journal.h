@@ -68,7 +68,7 @@ class Journal {
     void begin(const nlohmann::json& identity);
     std::filesystem::path pixel_file(int section) const;
     std::filesystem::path cache_file(int waves) const;
-    int waves_kept() const;
+    std::vector<int> waves_kept() const;  // the last first
 
     std::filesystem::path folder_;
     nlohmann::json plan_;

@@ -338,5 +338,34 @@ TEST_F(JournalTest, Sha1OfFiles) {
     EXPECT_EQ(sha1_of_file(folder() / "none"), "");
 }
 
+// None of it may end the program or take long: a disk that lost a block leaves such a journal.
+TEST_F(JournalTest, ADamagedJournalIsNotBelieved) {
+    const auto head = [](const std::string& folders, const std::string& with_plan) {
+        return R"({"format": "mpipov-journal", "version": 2, "folders made": )" + folders +
+               R"(, "identity": {}, "plan": )" + with_plan + "}";
+    };
+    const auto write = [&](const std::string& text) {
+        fs::create_directories(folder());
+        std::ofstream(folder() / "journal.json") << text;
+    };
+    write(head("0", std::string(1000000, '[') + std::string(1000000, ']')));
+    EXPECT_THROW(Journal::open(folder(), json::object()), Failure);
+    for (const char* folders : {"4294967297", "-1", "1.5", "true"}) {
+        write(head(folders, "{}"));
+        EXPECT_THROW(Journal::open(folder(), json::object()), Failure) << folders;
+    }
+    write(head("2147483647", "{}"));
+    Journal journal = Journal::open(folder(), json::object());
+    std::ofstream(folder() / "2147483647.cache") << "x";
+    std::ofstream(folder() / "99999999999999.cache") << "x";
+    EXPECT_EQ(journal.cache().waves, 0);
+    std::ofstream(folder() / "sections.jsonl")
+        << R"({"section": 4294967296, "sha1": "", "about": {}})" << '\n'
+        << R"({"section": -1, "sha1": "", "about": {}})" << '\n';
+    EXPECT_THAT(journal.finished(), IsEmpty());
+    journal.remove();
+    EXPECT_FALSE(fs::exists(folder()));
+}
+
 }  // namespace
 }  // namespace mpipov

@@ -1,8 +1,9 @@
 #include "message.h"
 
+#include "json_input.h"
 #include "section.h"
 
-#include <array>
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -42,10 +43,11 @@ Message unpack(std::span<const std::byte> bytes, int from) {
     message.kind = static_cast<MessageKind>(bytes[0]);
     message.peer = from;
     const auto head = bytes.subspan(prefix_bytes, head_size);
-    const auto* text = reinterpret_cast<const char*>(head.data());
-    message.head = nlohmann::json::parse(text, text + head.size(), nullptr, false);
-    if (message.head.is_discarded())
+    try {
+        message.head = parse_json({reinterpret_cast<const char*>(head.data()), head.size()});
+    } catch (const std::runtime_error&) {
         throw std::runtime_error("a message between ranks has an unreadable head");
+    }
     const auto body = bytes.subspan(prefix_bytes + head_size);
     message.body.assign(body.begin(), body.end());
     return message;
@@ -56,8 +58,15 @@ nlohmann::json rect_to_json(const Rect& r) {
 }
 
 Rect rect_from_json(const nlohmann::json& j) {
-    const auto v = j.get<std::array<int, 4>>();
-    return {v[0], v[1], v[2], v[3]};
+    // Copies only what is there: get<std::array>() takes the first four of more.
+    if (!j.is_array() || j.size() != 4)
+        throw std::runtime_error("a rectangle is not four whole numbers");
+    const Rect rect{whole_number<int>(j[0]), whole_number<int>(j[1]), whole_number<int>(j[2]),
+                    whole_number<int>(j[3])};
+    // So that no width or height overflows.
+    if (std::min({rect.x0, rect.y0, rect.x1, rect.y1}) < 0)
+        throw std::runtime_error("a rectangle has a negative edge");
+    return rect;
 }
 
 }  // namespace mpipov

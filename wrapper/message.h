@@ -43,6 +43,7 @@ std::vector<std::byte> pack(const Message& message);
 Message unpack(std::span<const std::byte> bytes, int from);
 
 nlohmann::json rect_to_json(const struct Rect& rect);
+// Throws std::runtime_error where it is anything else than four whole numbers from 0.
 struct Rect rect_from_json(const nlohmann::json& json);
 
 }  // namespace mpipov

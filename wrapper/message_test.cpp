@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -94,10 +95,25 @@ TEST(Message, DamagedBytesAreRefusedOrRead) {
 }
 
 TEST(Message, RectanglesTravelAsFourNumbers) {
-    const Rect rect{1, -2, 300000, 4};
+    const Rect rect{1, 2, 300000, 4};
     EXPECT_EQ(rect_from_json(rect_to_json(rect)), rect);
-    EXPECT_THROW(rect_from_json(nlohmann::json::array({1, 2, 3})), nlohmann::json::exception);
-    EXPECT_THROW(rect_from_json({{"x0", 1}}), nlohmann::json::exception);
+    for (const char* bad : {"[1, 2, 3]", "[1, 2, 3, 4, 5]", R"({"x0": 1})", "[0, 0, 4294967297, 1]",
+                            "[0, 0, 1.5, 1]", "[-2147483648, 0, 2147483647, 1]", "[0, 0, 1, true]"})
+        EXPECT_THROW(rect_from_json(nlohmann::json::parse(bad)), std::runtime_error) << bad;
+}
+
+// Copying and printing such a head would overflow the stack.
+TEST(Message, AHeadOfBracketsIsRefused) {
+    Message message = sample(MessageKind::progress, 0);
+    message.head = nlohmann::json();
+    std::vector<std::byte> bytes = pack(message);
+    const std::string head = std::string(1000000, '[') + std::string(1000000, ']');
+    bytes.resize(5 + head.size());
+    for (std::size_t i = 0; i < 4; ++i)
+        bytes[1 + i] = static_cast<std::byte>((head.size() >> (8 * i)) & 0xffU);
+    std::transform(head.begin(), head.end(), bytes.begin() + 5,
+                   [](char c) { return static_cast<std::byte>(c); });
+    EXPECT_THROW(unpack(bytes, 0), std::runtime_error);
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include "povray_text.h"
 
+#include "povray_lines.h"
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <regex>
+#include <unordered_set>
 
 namespace mpipov {
 namespace {
@@ -11,6 +14,9 @@ namespace {
 constexpr std::size_t wrap_column = 80;
 // POV-Ray looks for a space in the last quarter of the line only.
 constexpr std::size_t shortest_wrapped_line = wrap_column * 3 / 4;
+// Of what regular expressions are asked: they recurse once a character (povray_lines.h). What they
+// look for is shorter, but for the file's name of the output line.
+constexpr std::size_t longest_searched = 512;
 constexpr std::string_view option_problem = "Problem with option setting";
 
 std::vector<std::string> split_lines(std::string_view text) {
@@ -68,51 +74,52 @@ std::optional<std::string> value_after(const std::string& line, std::string_view
 // "out.jpg, 32 bpp, quality 85% with alpha JPEG"
 void parse_output_line(const std::string& value, ImageOptions& options) {
     static const std::regex shape(
-        R"(^(.*), (?:(\d+) bpp|grayscale)(?:, quality (\d+)%)?( with alpha)?(?:, quality (\d+)%)? )"
+        R"(^(?:(\d+) bpp|grayscale)(?:, quality (\d+)%)?( with alpha)?(?:, quality (\d+)%)? )"
         R"((RLE )?(\S+)$)");
     std::smatch match;
-    if (!std::regex_match(value, match, shape)) return;
-    options.to_standard_output = match[1] == "stdout";
-    options.output_file = match[1];
-    options.bits_per_pixel = to_int(match[2]);
-    options.alpha = match[4].matched;
-    options.jpeg_quality = to_int(match[3].matched ? match[3] : match[5]);
-    options.rle = match[6].matched;
-    options.type = match[7];
+    // The name may hold ", " too: from behind, the first place from which all that follows fits.
+    constexpr std::string_view separator = ", ";
+    std::string behind;
+    std::size_t name_end = value.size();
+    do {
+        if (name_end == 0) return;
+        name_end = value.rfind(separator, name_end - 1);
+        if (name_end == std::string::npos || value.size() - name_end > longest_searched) return;
+        behind = value.substr(name_end + separator.size());
+    } while (!std::regex_match(behind, match, shape));
+    options.output_file = value.substr(0, name_end);
+    options.to_standard_output = options.output_file == "stdout";
+    options.bits_per_pixel = to_int(match[1]);
+    options.alpha = match[3].matched;
+    options.jpeg_quality = to_int(match[2].matched ? match[2] : match[4]);
+    options.rle = match[5].matched;
+    options.type = match[6];
 }
 
 // The time in brackets of "  Parse Time:   0 hours  0 minutes  0 seconds (0.014 seconds)".
 std::optional<double> bracketed_seconds(const std::string& line) {
     static const std::regex shape(R"(\(([0-9.]+) seconds\))");
     std::smatch match;
-    if (!std::regex_search(line, match, shape)) return {};
+    if (line.size() > longest_searched || !std::regex_search(line, match, shape)) return {};
     return to_double(match[1]);
 }
 
 double cpu_seconds(const std::string& line) {
     static const std::regex shape(R"(with ([0-9.]+) CPU-seconds)");
     std::smatch match;
-    return std::regex_search(line, match, shape) ? to_double(match[1]) : 0.0;
+    return line.size() <= longest_searched && std::regex_search(line, match, shape)
+               ? to_double(match[1])
+               : 0.0;
 }
 
 void parse_antialiasing(const std::string& value, Antialiasing& antialiasing) {
     static const std::regex shape(R"(\(Method (\d+), Threshold ([0-9.]+), Depth (\d+))");
     std::smatch match;
     antialiasing.on = value.rfind("On", 0) == 0;
-    if (!std::regex_search(value, match, shape)) return;
+    if (value.size() > longest_searched || !std::regex_search(value, match, shape)) return;
     antialiasing.method = to_int(match[1]);
     antialiasing.threshold = to_double(match[2]);
     antialiasing.depth = to_int(match[3]);
-}
-
-void parse_counters(const std::string& line, std::map<std::string, long long>& counters) {
-    static const std::regex shape(R"(([A-Z][A-Za-z ]*[A-Za-z]): +(\d+))");
-    for (std::sregex_iterator it(line.begin(), line.end(), shape), end; it != end; ++it) {
-        long long value = 0;
-        const std::string digits = (*it)[2];
-        std::from_chars(digits.data(), digits.data() + digits.size(), value);
-        counters[(*it)[1]] = value;
-    }
 }
 
 }  // namespace
@@ -139,7 +146,8 @@ std::optional<ImageOptions> parse_image_options(std::string_view text) {
     for (const std::string& line : unwrap_lines(text)) {
         std::smatch match;
         if (const auto value = value_after(line, "  Image resolution.....")) {
-            if (!std::regex_match(*value, match, resolution)) continue;
+            if (value->size() > longest_searched || !std::regex_match(*value, match, resolution))
+                continue;
             options.width = to_int(match[1]);
             options.height = to_int(match[2]);
             options.region = {to_int(match[5]) - 1, to_int(match[3]) - 1, to_int(match[6]),
@@ -151,7 +159,7 @@ std::optional<ImageOptions> parse_image_options(std::string_view text) {
             options.dithering = *dithering;
         } else if (const auto input = value_after(line, "  Input file: ")) {
             options.input_file = *input;
-        } else if (std::regex_search(line, match, frames)) {
+        } else if (line.size() <= longest_searched && std::regex_search(line, match, frames)) {
             options.animation = true;
             options.frames = to_int(match[1]);
         }
@@ -220,21 +228,18 @@ std::optional<double> parse_progress(std::string_view text) {
 }
 
 std::vector<std::string> parse_warnings(std::string_view text) {
-    static const std::regex shape(R"(^(?:File '.*' line \d+: )?(?:[A-Z][a-z]+ )*Warning: )");
     std::vector<std::string> warnings;
+    std::unordered_set<std::string> known;  // there may be as many as there are lines
     for (const std::string& line : unwrap_lines(text)) {
-        if (!std::regex_search(line, shape)) continue;
+        if (!is_warning(line)) continue;
         std::string warning = trim(line);
-        if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
-            warnings.push_back(std::move(warning));
+        if (known.insert(warning).second) warnings.push_back(std::move(warning));
     }
     return warnings;
 }
 
 std::string parse_error(std::string_view text) {
-    static const std::regex precise(R"(Error: )");
-    static const std::regex possible(R"(Possible [A-Za-z ]*Error: )");
-    static const std::regex general(R"(^(Fatal error|Cannot|Failed|No input file))");
+    constexpr std::string_view general[] = {"Fatal error", "Cannot", "Failed", "No input file"};
     // These lines are not wrapped: the problem, the whole command, the reason.
     const std::vector<std::string> printed = split_lines(text);
     for (std::size_t i = 0; i + 2 < printed.size(); ++i)
@@ -242,13 +247,13 @@ std::string parse_error(std::string_view text) {
             return trim(printed[i]) + ": " + trim(printed[i + 2]);
     const std::vector<std::string> lines = unwrap_lines(text);
     for (std::size_t i = 0; i < lines.size(); ++i) {
-        if (!std::regex_search(lines[i], precise) || std::regex_search(lines[i], possible))
-            continue;
+        if (lines[i].find("Error: ") == std::string::npos || is_possible_error(lines[i])) continue;
         // Right before "Cannot open input file." stands which file, as a possible error.
-        return trim(i > 0 && std::regex_search(lines[i - 1], possible) ? lines[i - 1] : lines[i]);
+        return trim(i > 0 && is_possible_error(lines[i - 1]) ? lines[i - 1] : lines[i]);
     }
     for (const std::string& line : lines)
-        if (std::regex_search(line, general)) return trim(line);
+        for (const std::string_view start : general)
+            if (line.starts_with(start)) return trim(line);
     for (auto line = lines.rbegin(); line != lines.rend(); ++line)
         if (!trim(*line).empty()) return trim(*line);
     return "it printed nothing";
@@ -259,12 +264,8 @@ bool is_option_error(std::string_view text) {
 }
 
 std::optional<std::string> parse_version(std::string_view text) {
-    static const std::regex shape(
-        R"((?:^|\n)(?:POV-Ray|Persistence of Vision\(tm\) Ray Tracer Version) (\d[^\s]*))");
-    const std::string whole(text);
-    std::smatch match;
-    if (!std::regex_search(whole, match, shape)) return {};
-    return match[1];
+    const auto version = version_in(text);
+    return version ? std::optional(std::string(*version)) : std::nullopt;
 }
 
 IniSettings ini_settings(std::string_view text) {

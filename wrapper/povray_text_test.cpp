@@ -1,6 +1,7 @@
 // The recorded texts are made by testdata/record.
 #include "povray_text.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,6 +22,7 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::Optional;
 using testing::Pair;
+using testing::SizeIs;
 using testing::StartsWith;
 
 std::string recorded(const std::string& name) {
@@ -336,6 +338,26 @@ TEST(StatisticsArePrinted, OnceTheirLastLineIsWhole) {
         EXPECT_FALSE(statistics_are_printed(whole.substr(0, end + last.size() - cut))) << cut;
     EXPECT_FALSE(statistics_are_printed(""));
     EXPECT_FALSE(statistics_are_printed(recorded("syntax_error")));
+}
+
+// std::regex recurses once a character: each of these ended the program. A scene prints what it
+// likes, and line feeds are taken out of it.
+TEST(LongLines, DoNotOverflowTheStack) {
+    const std::string word(1000000, 'A'), number(1000000, '1');
+    EXPECT_FALSE(parse_report(word).finished);
+    EXPECT_TRUE(parse_report(word + ": 7\n\nPOV-Ray finished\n").finished);
+    EXPECT_EQ(parse_report("  Parse Time: (" + number + " seconds)\n").parse_seconds, 0);
+    EXPECT_EQ(parse_version("POV-Ray 3" + number), "3" + number);
+    EXPECT_FALSE(parse_image_options("  Output file.........." + word + ", 24 bpp PNG\n"));
+    EXPECT_THAT(parse_warnings("File '" + word + "' line 1: Parse Warning: a\n"), SizeIs(1));
+    EXPECT_EQ(parse_error("Possible " + word + "\n"), "Possible " + word);
+}
+
+// By hand it takes half a minute for each 100 000 where each is compared with all others.
+TEST(ManyWarnings, TakeLinearTime) {
+    std::string text;
+    for (int i = 0; i < 300000; ++i) text += fmt::format("Warning: {}\n", i);
+    EXPECT_THAT(parse_warnings(text), SizeIs(300000));
 }
 
 }  // namespace

@@ -23,8 +23,10 @@ json rect_json(const Rect& r) {
     return {{"x0", r.x0}, {"y0", r.y0}, {"x1", r.x1}, {"y1", r.y1}};
 }
 
+// None of it negative, so that no width or height overflows.
 Rect rect_from(const json& j) {
-    return {member<int>(j, "x0"), member<int>(j, "y0"), member<int>(j, "x1"), member<int>(j, "y1")};
+    return {member<int>(j, "x0", 0), member<int>(j, "y0", 0), member<int>(j, "x1", 0),
+            member<int>(j, "y1", 0)};
 }
 
 template <typename Enum>
@@ -104,7 +106,7 @@ RadiositySharing radiosity_from(const json& plan) {
     if (found == plan.end()) return {};
     return {enum_from(member(*found, "sharing"),
                       {Sharing::independent, Sharing::shared, Sharing::joined}),
-            member<int>(*found, "passes"), member<int>(*found, "scale")};
+            member<int>(*found, "passes", 1), member<int>(*found, "scale", 1)};
 }
 
 json sections_json(const std::vector<SectionRecord>& sections) {
@@ -153,8 +155,8 @@ json seam_json(const SeamRecord& s) {
 
 SeamRecord seam_from(const json& j) {
     SeamRecord s;
-    s.seam = {member<int>(j, "a"),        member<int>(j, "b"),    member<bool>(j, "vertical"),
-              member<int>(j, "position"), member<int>(j, "from"), member<int>(j, "to")};
+    s.seam = {member<int>(j, "a"),           member<int>(j, "b"),       member<bool>(j, "vertical"),
+              member<int>(j, "position", 0), member<int>(j, "from", 0), member<int>(j, "to", 0)};
     s.checked = member<bool>(j, "checked");
     s.differing = member<long long>(j, "differing");
     const json& largest = member(j, "max_difference");
@@ -203,17 +205,17 @@ json to_json(const PlanRecord& plan) {
 PlanRecord plan_from_json(const json& j) {
     PlanRecord plan;
     const json& image = member(j, "image");
-    plan.image = {member<int>(image, "width"), member<int>(image, "height"),
-                  member<int>(image, "channels"), member<std::string>(image, "type"),
+    plan.image = {member<int>(image, "width", 0), member<int>(image, "height", 0),
+                  member<int>(image, "channels", 0), member<std::string>(image, "type"),
                   member<std::string>(image, "depth")};
     plan.region = rect_from(member(j, "region"));
     plan.effects = effects_from(member(j, "effects"));
     const json& grid = member(j, "grid");
     plan.shape = shape_from(member(grid, "shape"));
     plan.seams = seams_from(member(grid, "seams"));
-    plan.halo = member<int>(grid, "halo");
-    plan.block = member<int>(grid, "block");
-    plan.sections = member<int>(grid, "sections");
+    plan.halo = member<int>(grid, "halo", 0);
+    plan.block = member<int>(grid, "block", 1);  // a divisor, as is radiosity's scale
+    plan.sections = member<int>(grid, "sections", 1);
     for (const json& cut : grid.value("cuts", json::array())) plan.cuts.push_back(rect_from(cut));
     plan.radiosity = radiosity_from(j);
     plan.schedule = member<std::string>(j, "schedule");
@@ -305,7 +307,7 @@ RunRecord read_run_record(const std::filesystem::path& file) {
     std::ifstream in(file);
     if (!in) throw std::runtime_error(fmt::format("cannot read '{}'", file.string()));
     try {
-        return run_from_json(json::parse(in));
+        return run_from_json(parse_json(in));
     } catch (const std::exception& error) {
         throw std::runtime_error(
             fmt::format("cannot read '{}': {}", file.string(), plain_words(error.what())));

@@ -95,7 +95,7 @@ TEST(RunRecord, NamesWhatIsOfAnotherKind) {
         run_from_json(json);
         FAIL() << "accepted words for a number";
     } catch (const std::runtime_error& error) {
-        EXPECT_STREQ(error.what(), "its 'launches': type must be number, but is string");
+        EXPECT_STREQ(error.what(), "its 'launches': must be a whole number, but is string");
     }
 }
 
@@ -120,6 +120,25 @@ TEST(RunRecord, RefusesAnotherFormatAndTextThatIsNoJson) {
     EXPECT_THROW(read_run_record(file), std::runtime_error);
     std::filesystem::remove(file);
     EXPECT_THROW(read_run_record(file), std::runtime_error);
+}
+
+TEST(RunRecord, RefusesNumbersThatNoRunHas) {
+    const auto refused = [](const char* where, const nlohmann::json& value) {
+        nlohmann::json json = to_json(sample_record());
+        json[nlohmann::json::json_pointer(where)] = value;
+        EXPECT_THROW(run_from_json(json), std::runtime_error) << where << " " << value;
+    };
+    // Both are divided by.
+    refused("/plan/grid/block", 0);
+    refused("/plan/radiosity/scale", 0);
+    refused("/plan/radiosity/passes", 0);
+    refused("/plan/grid/sections", 0);
+    refused("/plan/image/width", 4294967296 + 320);
+    refused("/plan/image/width", 320.5);
+    // Its width would overflow.
+    refused("/plan/region/x0", std::numeric_limits<int>::min());
+    refused("/sections/0/keep/x0", -1);
+    refused("/seams/0/position", -1);
 }
 
 }  // namespace

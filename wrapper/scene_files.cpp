@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <system_error>
+#include <unordered_set>
 
 namespace mpipov {
 namespace {
@@ -247,9 +248,9 @@ std::vector<std::string> names_in_scene(std::string_view text) {
 
 std::vector<std::string> names_in_option(std::string_view option) {
     std::vector<std::string> names;
+    std::unordered_set<std::string_view> known;
     const auto add = [&](std::string_view name) {
-        if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
-            names.emplace_back(name);
+        if (!name.empty() && known.insert(name).second) names.emplace_back(name);
     };
     add(name_in_word(option));
     // POV-Ray takes several options in one argument or line; that a name has blanks is not

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <string>
 
 namespace mpipov {
 namespace {
@@ -139,6 +140,12 @@ TEST_F(SceneFilesTest, NothingIsFoundWhereThereIsNothing) {
     EXPECT_THAT(files({"", {}, {}, {}}), IsEmpty());
     write("a.pov", "\"" + std::string(5000, 'x') + "\" \"\\\" \"a\tb\"");
     EXPECT_THAT(files({"a.pov", {}, {}, {}}), ElementsAre("a.pov"));
+}
+
+TEST(NamesInOption, ManyTakeLinearTime) {
+    std::string option;
+    for (int i = 0; i < 200000; ++i) option += "+Ia" + std::to_string(i) + " ";
+    EXPECT_EQ(names_in_option(option).size(), 200001U) << "each, and all of it with its blanks";
 }
 
 }  // namespace
