@@ -174,27 +174,38 @@ def missing(what, how):
     return f"{what}: no record yet ({how} makes it).\n"
 
 
-def rows_of(record):
-    """Of a record that is a list of objects under its first such key: head and rows."""
-    entries = next((value for value in record.values()
-                    if isinstance(value, list) and value and isinstance(value[0], dict)), [])
-    head = [key for key, value in entries[0].items() if not isinstance(value, (dict, list))] \
-        if entries else []
-    return head, [[cell(one.get(key)) for key in head] for one in entries]
-
-
-def cell(value):
-    return f"{value:.6g}" if isinstance(value, float) else "-" if value is None else str(value)
-
-
-def other_part(records, name, title, text, how):
-    yield f"## {title}\n"
-    yield text
-    if name not in records:
-        yield missing(title, how)
+def peers_part(record):
+    """Pairs of images whose scores scikit-image and idiff were asked for too."""
+    yield "## Peers\n"
+    if not record:
+        yield missing("SSIM, PSNR and RMS beside scikit-image's and `idiff`'s", "`ci/peers.py`")
         return
-    head, rows = rows_of(records[name])
-    yield table(head, rows) + "\n"
+    pairs = record["pairs"]
+    agreeing = sum(pair["agreements"] for pair in pairs)
+    yield (f"SSIM, PSNR and RMS of {len(pairs)} pairs of images beside scikit-image's and `idiff`'s: "
+           f"{agreeing} of {sum(pair['comparisons'] for pair in pairs)} numbers agree to the printed "
+           "digits. Of the others it is said why not.\n")
+    yield table(["pair", "RMS", "PSNR", "SSIM", "agree", "why not"],
+                [[pair["what"], *(score(pair["ours"][key]) for key in ("rms", "psnr", "ssim")),
+                  f"{pair['agreements']} of {pair['comparisons']}",
+                  "; ".join(f"{key}: {why}" for key, why in pair["agree"].items()
+                            if why is not True) or "-"] for pair in pairs]) + "\n"
+
+
+def score(value):
+    return "-" if value is None else f"{value:.6g}"
+
+
+def fuzz_part(record):
+    yield "## Fuzzers\n"
+    if not record:
+        yield missing("What reads text or JSON that others wrote, fed with damage", "`ci/fuzz`")
+        return
+    yield ("What reads text or JSON that others may have written, fed with damage "
+           "([fuzzing.md](stability/fuzzing.md)).\n")
+    yield table(["parser", "seconds", "inputs", "what was found, with its test"],
+                [[one["name"], one["seconds"], one["executions"], "; ".join(one["found"]) or "nothing"]
+                 for one in record["fuzzers"]]) + "\n"
 
 
 def page(records):
@@ -215,9 +226,5 @@ def page(records):
     parts += ["## Our own arithmetic\n",
               "What is promised of metrics, variances and costs, and which test holds it to that: "
               "[arithmetic.md](arithmetic.md).\n"]
-    parts += other_part(records, "peers", "Peers",
-                        "SSIM, PSNR and RMS beside scikit-image's and `idiff`'s.\n", "`ci/peers.py`")
-    parts += other_part(records, "fuzz", "Fuzzers",
-                        "What reads text or JSON that others may have written, fed with damage.\n",
-                        "the fuzzers' script")
+    parts += [*peers_part(records.get("peers")), *fuzz_part(records.get("fuzz"))]
     return "\n".join(parts)

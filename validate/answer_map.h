@@ -13,9 +13,9 @@ class AnswerMap {
     // Failure(Exit::file).
     explicit AnswerMap(std::filesystem::path reference);
 
-    // Adds a picture from a moved camera, smallest move first. How many of its pixels answer: some
-    // channel differs by more than one level of 255, or is not finite in one of the two alone.
-    // Throws Failure: file, interrupted.
+    // Adds a picture from a moved camera, smallest move first (write() goes by that). How many of
+    // its pixels answer: some channel differs by more than one level of 255, or is not finite in
+    // one of the two alone. Throws Failure: file, interrupted.
     long long add(const std::filesystem::path& moved, double move);
 
     // Gray, as large as the image: the smaller the move that a pixel answers, the brighter. Throws

@@ -19,6 +19,7 @@ void SeamsConditioning::measure(SeamsReport& report) {
     request.povray = povray_;
     request.folder = folder_;
     request.reference = serial.reference();
+    request.full_map = true;
     for (const NoiseRender& render : serial.noise.renders)
         request.noise = std::max(request.noise.value_or(0),
                                  render.comparison.metrics.all.mean_abs().value_or(0));

@@ -32,7 +32,7 @@ void case_row(std::back_insert_iterator<std::string> out, const SeamsCase& one, 
         quiet = fmt::format("{} of {}", one.judgement->quiet.renders - one.judgement->quiet.alarms,
                             one.judgement->quiet.renders);
     }
-    fmt::format_to(out, "{:<{}}  {:<13}{:<4}{:>10}{:>9}{:>9}{:>10}{:>10}{:>10}{:>10}\n", one.name,
+    fmt::format_to(out, "{:<{}}  {:<16}{:<4}{:>10}{:>9}{:>9}{:>10}{:>10}{:>10}{:>10}\n", one.name,
                    width, to_string(one.verdict.kind), one.verdict.ok ? "ok" : "NO", differing,
                    largest, ssim, seams, controls, found, quiet);
     if (!one.verdict.ok || one.verdict.kind == Verdict::Kind::differs)
@@ -81,7 +81,7 @@ std::string to_table(const SeamsReport& report) {
     if (report.serial) fmt::format_to(out, "{}\n", to_table(report.serial->noise, unit));
     std::size_t width = 8;
     for (const SeamsCase& one : report.cases) width = std::max(width, one.name.size());
-    fmt::format_to(out, "{:<{}}  {:<17}{:>10}{:>9}{:>9}{:>10}{:>10}{:>10}{:>10}\n", "case", width,
+    fmt::format_to(out, "{:<{}}  {:<20}{:>10}{:>9}{:>9}{:>10}{:>10}{:>10}{:>10}\n", "case", width,
                    "verdict", "differing", "largest", "SSIM", "step", "control", "findable",
                    "quiet on");
     for (const SeamsCase& one : report.cases) case_row(out, one, width);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 namespace mpipov {
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array moves{1e-12, 1e-9, 1e-6};
 constexpr double control_move = 1e-3;
+constexpr std::array moves_for_map{-1e-12, 3e-12, -1e-11, 3e-11, -1e-10};
 
 class Measure {
   public:
@@ -38,6 +40,7 @@ class Measure {
         AnswerMap map(found_.reference.image);
         for (CameraMove& one : found_.moves) one.answering = map.add(one.render.image, one.move);
         judge();
+        if (request_.full_map && found_.verdict->kind == Conditioning::ill) fill(map);
         return map;
     }
 
@@ -100,6 +103,16 @@ class Measure {
         found_.control = moved(control_move, "control");
         move_all();
         if (!found_.moves.back().comparison.identical()) found_.control.reset();
+    }
+
+    void fill(AnswerMap& map) const {
+        for (std::size_t i = 0; i < moves_for_map.size(); ++i) {
+            const double move = moves_for_map[i];
+            const CameraMove one = moved(move, fmt::format("for-map-{}", i + 1));
+            map.add(one.render.image, std::abs(move));
+            std::error_code ignored;
+            fs::remove(one.render.image, ignored);
+        }
     }
 
     void judge() {

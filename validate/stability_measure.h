@@ -19,6 +19,9 @@ struct StabilityRequest {
     std::optional<SerialRender> reference;  // of these arguments; none: it is rendered
     // The largest mean error between equally right renders, where it is known already.
     std::optional<double> noise;
+    // In an ill-conditioned scene: more moves of next to nothing for the map. One of them is
+    // answered by some of the pixels that rounding decides about, five more by nearly all.
+    bool full_map = false;
     std::function<void()> told = [] {};  // after each render
 };
 
