@@ -409,6 +409,23 @@ TEST_F(ChildProcessTest, FileSizeLimitHolds) {
     EXPECT_LE(fs::file_size(folder.path() / "big"), 10000U);
 }
 
+TEST_F(ChildProcessTest, FolderLimitHolds) {
+    const ScratchFolder folder("child-test");
+    for (const char* script : {"dd if=/dev/zero of=big bs=4096 count=100 2>/dev/null; sleep 60",
+                               "for i in $(seq 100); do : > f$i; done; sleep 60"}) {
+        ChildRequest request = shell(script);
+        request.working_directory = folder.path();
+        request.folder_limit = {folder.path(), 100000};
+        const ChildResult result = run_to_end(request);
+        EXPECT_TRUE(result.filled_folder) << script;
+        EXPECT_THAT(result.signal, Optional(SIGTERM)) << script;
+        EXPECT_LT(result.wall_seconds, 30) << script;
+    }
+    ChildRequest request = shell("sleep 0.5");
+    request.folder_limit = {folder.path(), 1000000};
+    EXPECT_FALSE(run_to_end(request).filled_folder);
+}
+
 TEST_F(ChildProcessTest, CpuSecondsCountTheChildAndWhatItWaitedFor) {
     const std::string busy = "i=0; while [ $i -lt 300000 ]; do i=$((i+1)); done";
     for (const std::string& script : {busy, "(" + busy + "); true"}) {

@@ -1,6 +1,7 @@
 #include "probe.h"
 
 #include "child_process.h"
+#include "describe_end.h"
 #include "failure.h"
 #include "probe_launches.h"
 
@@ -125,7 +126,7 @@ std::string check_resolved(const ProbeLaunches& launches, const ProbeRequest& re
                                                fmt::join(request.user_arguments, " ")));
     std::string version = checked_version(request.povray, !launches.started(), text);
     if (!launches.resolved())
-        throw Failure(Exit::scene, fmt::format("POV-Ray: {}", parse_error(text)));
+        throw Failure(Exit::scene, describe_failure(text, request.confinement));
     return version;
 }
 

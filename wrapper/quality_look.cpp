@@ -46,8 +46,8 @@ class QualityLaunches {
         std::filesystem::create_directories(folder);
         const std::filesystem::path image = small_image(folder);
         more.push_back(fmt::format("+O\"{}\"", image.string()));
-        launches_.push_back(
-            ShortLaunch::start(small_command(request_, more), image, request_.timeout_seconds));
+        launches_.push_back(ShortLaunch::start(
+            small_request(request_, folder, small_command(request_, more)), image));
     }
 
     void wait() { wait_for_all(launches_); }

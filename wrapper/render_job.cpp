@@ -112,16 +112,13 @@ std::optional<Journal> begin_journal(const Options& options, const OutputPlace& 
 }
 
 // What it costs to know is part of the run.
-std::optional<CostMap> find_costs(const JobSetup& setup, const std::vector<std::string>& arguments,
-                                  const Probe& probe, const OutputPlace& place,
-                                  const std::filesystem::path& scratch, RunRecord& record) {
-    const Options& options = setup.options;
+std::optional<CostMap> find_costs(const ProbeRequest& request, const Probe& probe,
+                                  const OutputPlace& place, RunRecord& record) {
     if (auto costs = costs_of_earlier_run(place.record(), record.scene_sha1, probe.result))
         return costs;
     if (make_cost_model(probe.result).render < least_render_to_look_at) return {};
     if (!probe.result.seen_whole) return {};  // its parts refuse to be small too
-    PartCosts parts = costs_of_small_parts(
-        {options.povray, arguments, scratch, options.timeout_seconds}, probe.result);
+    PartCosts parts = costs_of_small_parts(request, probe.result);
     record.totals.cpu_seconds += parts.cpu_seconds;
     record.totals.launches += parts.launches;
     return std::move(parts.costs);
@@ -141,20 +138,24 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
 
     const std::vector<std::string> arguments = quote_arguments(options.povray_arguments);
     const ScratchFolder scratch("probe");
-    std::optional<EarlyRender> early =
-        start_early(setup, transport.size(), arguments, worker.scratch() / "early");
+    std::optional<EarlyRender> early = start_early(
+        setup, transport.size(), arguments, worker.scratch() / "early", worker.confinement());
     const auto stop_early = [&] {
         if (!early) return;
         record.totals.cpu_seconds += early->launch.child.cpu_seconds();
         ++record.totals.launches;
         early.reset();
     };
+    const auto look = [&](const char* folder) {
+        return ProbeRequest{options.povray,          arguments, scratch.path() / folder,
+                            options.timeout_seconds, {},        worker.confinement()};
+    };
     std::optional<LoadingImageLibrary> loading;
     if (!options.dry_run) loading.emplace();
-    Probe probe =
-        run_probe({options.povray, arguments, scratch.path() / "probe", options.timeout_seconds,
-                   // It would take the probe's cores, and radiosity is hardly ever one launch.
-                   stop_early});
+    ProbeRequest probing = look("probe");
+    // It would take the probe's cores, and radiosity is hardly ever one launch.
+    probing.at_radiosity = stop_early;
+    Probe probe = run_probe(probing);
     const std::string& povray = probe.povray;
     record.versions["povray"] = povray;
     record.totals.cpu_seconds += probe.cpu_seconds;
@@ -175,11 +176,10 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     if (options.schedule == Policy::cost && !plan.takes_early && !options.resume) {
         stop_early();
         request.early_threads = 0;
-        request.costs = find_costs(setup, arguments, probe, place, scratch.path(), record);
+        request.costs = find_costs(look("parts"), probe, place, record);
         plan = checked_plan(request, probe.result);
     }
-    look_closer(setup, arguments, scratch.path() / "look", probe.result, plan.record,
-                record.totals);
+    look_closer(setup, look("look"), probe.result, plan.record, record.totals);
     if (early && plan.takes_early) {
         worker.adopt(0, std::move(early->launch));
         early.reset();

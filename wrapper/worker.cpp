@@ -1,5 +1,6 @@
 #include "worker.h"
 
+#include "describe_end.h"
 #include "povray_text.h"
 
 #include <fmt/format.h>
@@ -14,18 +15,6 @@ namespace mpipov {
 namespace {
 
 constexpr int coordinator = 0;
-
-std::string describe_end(const ChildProcess& child) {
-    const ChildResult& result = child.result();
-    if (result.timed_out)
-        return fmt::format("POV-Ray did not end within {:.0f} s (--timeout)", result.wall_seconds);
-    if (result.signal) {
-        const char* name = ::sigabbrev_np(*result.signal);
-        return fmt::format("POV-Ray was ended by signal {} (SIG{})", *result.signal,
-                           name != nullptr ? name : "?");
-    }
-    return fmt::format("POV-Ray: {}", parse_error(child.output()));
-}
 
 }  // namespace
 
@@ -47,8 +36,8 @@ std::filesystem::path find_image(const std::filesystem::path& base) {
     throw std::runtime_error("POV-Ray wrote no image");
 }
 
-Worker::Worker(Transport& transport, std::filesystem::path scratch)
-    : transport_(transport), scratch_(std::move(scratch)) {}
+Worker::Worker(Transport& transport, std::filesystem::path scratch, Confinement confinement)
+    : transport_(transport), scratch_(std::move(scratch)), confinement_(std::move(confinement)) {}
 
 void Worker::handle(const Message& message) {
     switch (message.kind) {
@@ -116,20 +105,24 @@ PreparedLaunch Worker::launch(const Section& section, int attempt) {
     }
     // Launches of an earlier job may still be leaving.
     LaunchFolder folder(scratch_ / fmt::format("{}-{}-{}", jobs_, section.id, attempt));
-    ChildRequest request;
+    LaunchNeeds needs;
+    needs.folder = folder.path();
+    needs.timeout_seconds = timeout_seconds_;
+    needs.threads = job_.threads;
+    needs.pixels =
+        static_cast<std::uint64_t>(image_.width) * static_cast<std::uint64_t>(image_.height);
     if (gathers_) {
         const std::filesystem::path cache = folder.path() / section_cache_name;
         const bool reads = !cache_.file().empty();
         // POV-Ray writes behind what it has read.
         if (reads) std::filesystem::copy_file(cache_.file(), cache);
-        request.argv = gather_command(job_, section.render, image_, cache, reads);
+        needs.argv = gather_command(job_, section.render, image_, cache, reads);
     } else {
-        request.argv =
+        needs.argv =
             section_command(job_, section.render, image_, folder.path() / section_image_name);
     }
-    request.environment = temporary_files_in(folder.path());
-    request.timeout_seconds = timeout_seconds_;
-    return {std::move(folder), ChildProcess::start(request)};
+    if (!job_.radiosity_cache.empty()) needs.reads.push_back(job_.radiosity_cache);
+    return {std::move(folder), ChildProcess::start(confinement_.request(std::move(needs)))};
 }
 
 void Worker::adopt(int section, PreparedLaunch launch) {
@@ -178,7 +171,7 @@ Worker::State Worker::step(Launch& launch) {
 Worker::State Worker::end_broken(Launch& launch) {
     if (!launch.child.poll()) return State::idle;
     const bool ours = launch.child.result().exit_code == 0;
-    send_failure(launch, ours ? launch.broken : describe_end(launch.child),
+    send_failure(launch, ours ? launch.broken : describe_end(launch.child, confinement_),
                  ours ? launch.code : Exit::scene);
     return State::over;
 }
@@ -203,7 +196,7 @@ Worker::State Worker::end_cancelled(Launch& launch) {
 
 Worker::State Worker::begin_reading(Launch& launch) {
     if (launch.child.ended() && launch.child.result().exit_code != 0) {
-        send_failure(launch, describe_end(launch.child), Exit::scene);
+        send_failure(launch, describe_end(launch.child, confinement_), Exit::scene);
         return State::over;
     }
     if (gathers_)

@@ -5,6 +5,7 @@
 
 #include "cache_stream.h"
 #include "child_process.h"
+#include "confinement.h"
 #include "end_of_work.h"
 #include "failure.h"
 #include "image_file.h"
@@ -25,12 +26,13 @@ namespace mpipov {
 
 class Worker {
   public:
-    // Section files lie in `scratch` while they are needed.
-    Worker(Transport& transport, std::filesystem::path scratch);
+    // Section files lie in `scratch` while they are needed. `confinement`: of every launch.
+    Worker(Transport& transport, std::filesystem::path scratch, Confinement confinement = {});
 
     void handle(const Message& message);
 
     const std::filesystem::path& scratch() const { return scratch_; }
+    const Confinement& confinement() const { return confinement_; }
 
     // A launch that is under way already: the first attempt at `section` takes it, and its time
     // runs from then on.
@@ -84,6 +86,7 @@ class Worker {
 
     Transport& transport_;
     std::filesystem::path scratch_;
+    Confinement confinement_;
     JobCommand job_;
     ImageSize image_;
     int jobs_ = 0;  // so far
