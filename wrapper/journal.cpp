@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 namespace mpipov {
@@ -100,8 +101,11 @@ std::string sha1_of_text(const std::string& text) {
 }
 
 bool is_entry(const json& entry) {
-    return entry.is_object() && entry.value("section", json()).is_number_integer() &&
-           entry.value("sha1", json()).is_string() && entry.contains("about");
+    if (!entry.is_object()) return false;
+    const json section = entry.value("section", json());
+    return section.is_number_integer() && section >= 0 &&
+           section <= std::numeric_limits<int>::max() && entry.value("sha1", json()).is_string() &&
+           entry.contains("about");
 }
 
 }  // namespace
@@ -218,7 +222,7 @@ void Journal::finish(int section, const json& about) {
     if (!out.flush()) cannot("write", file);
 }
 
-std::vector<Journal::Finished> Journal::finished() const {
+std::vector<Journal::Finished> Journal::finished(const SectionBytes& bytes_of) const {
     std::map<int, json> last;  // of a section that was finished twice, the last line counts
     std::ifstream in(folder_ / sections_name);
     for (std::string line; std::getline(in, line);) {
@@ -228,9 +232,13 @@ std::vector<Journal::Finished> Journal::finished() const {
         last[section] = std::move(entry);
     }
     std::vector<Finished> finished;
-    for (const auto& [section, entry] : last)
+    for (const auto& [section, entry] : last) {
+        std::error_code error;
+        const auto size = std::filesystem::file_size(pixel_file(section), error);
+        if (error || bytes_of(section) != size) continue;
         if (sha1_of_file(pixel_file(section)) == entry.at("sha1").get<std::string>())
             finished.push_back({section, entry.at("about")});
+    }
     return finished;
 }
 

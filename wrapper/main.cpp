@@ -19,6 +19,7 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string>
@@ -83,7 +84,8 @@ Self about_this_rank(const Options& options, int rank) {
 }
 
 Confinement confinement_of(const Options& options, const Self& self, const ScratchFolder& scratch) {
-    return {options, resources_of_host(self.pool), scratch.path()};
+    const int cores = std::max(self.pool, self.record.slots * self.ranks_of_host);
+    return {options, resources_of_host(cores), scratch.path()};
 }
 
 void send_refusal(Transport& transport, const RankRecord& self, Exit code, const std::string& why) {

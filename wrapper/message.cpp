@@ -3,6 +3,7 @@
 #include "section.h"
 
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 
@@ -51,12 +52,25 @@ Message unpack(std::span<const std::byte> bytes, int from) {
     return message;
 }
 
+int int_from_json(const nlohmann::json& json, int least, int most) {
+    const auto number = json.is_number_integer() ? json.get<std::int64_t>() : std::int64_t{-1};
+    // What does not fit into 64 bits with a sign is no number of ours either.
+    const bool too_large = json.is_number_unsigned() && number < 0;
+    if (!json.is_number_integer() || too_large || number < least || number > most)
+        throw std::runtime_error("a message between ranks has an impossible number");
+    return static_cast<int>(number);
+}
+
 nlohmann::json rect_to_json(const Rect& r) {
     return nlohmann::json::array({r.x0, r.y0, r.x1, r.y1});
 }
 
 Rect rect_from_json(const nlohmann::json& j) {
-    const auto v = j.get<std::array<int, 4>>();
+    constexpr int most = 1 << 30;  // pixels: differences of two fit into an int
+    if (!j.is_array() || j.size() != 4)
+        throw std::runtime_error("a message between ranks has a rectangle that is none");
+    std::array<int, 4> v{};
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = int_from_json(j[i], -most, most);
     return {v[0], v[1], v[2], v[3]};
 }
 

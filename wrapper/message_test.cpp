@@ -96,8 +96,32 @@ TEST(Message, DamagedBytesAreRefusedOrRead) {
 TEST(Message, RectanglesTravelAsFourNumbers) {
     const Rect rect{1, -2, 300000, 4};
     EXPECT_EQ(rect_from_json(rect_to_json(rect)), rect);
-    EXPECT_THROW(rect_from_json(nlohmann::json::array({1, 2, 3})), nlohmann::json::exception);
-    EXPECT_THROW(rect_from_json({{"x0", 1}}), nlohmann::json::exception);
+    using nlohmann::json;
+    for (const json& bad : {json::array({1, 2, 3}), json::array({1, 2, 3, 4, 5}), json({{"x0", 1}}),
+                            json("1, 2, 3, 4"), json::array({1, 2, 3, 1e300}),
+                            json::array({1, 2, 3, 4.5}), json::array({1, 2, 3, "4"}),
+                            json::array({1, 2, 3, 1LL << 40}), json::array({1, 2, 3, ~0ULL})})
+        EXPECT_THROW(rect_from_json(bad), std::runtime_error) << bad;
+}
+
+TEST(Message, NumbersAreWholeAndWithinTheirBounds) {
+    EXPECT_EQ(int_from_json(7, 0, 10), 7);
+    EXPECT_EQ(int_from_json(0U, 0, 10), 0);
+    for (const nlohmann::json& bad :
+         {nlohmann::json(-1), nlohmann::json(11), nlohmann::json(1.0), nlohmann::json("1"),
+          nlohmann::json(), nlohmann::json(~0ULL), nlohmann::json(1LL << 40)})
+        EXPECT_THROW(int_from_json(bad, 0, 10), std::runtime_error) << bad;
+}
+
+TEST(Message, AHeadMayBeNestedAsDeepAsItIsLong) {
+    constexpr std::size_t depth = std::size_t{4} << 20;
+    const std::string text = std::string(depth, '[') + std::string(depth, ']');
+    std::vector<std::byte> bytes(5 + text.size());
+    for (std::size_t i = 0; i < 4; ++i)
+        bytes[1 + i] = static_cast<std::byte>((text.size() >> (8 * i)) & 0xffU);
+    std::memcpy(bytes.data() + 5, text.data(), text.size());
+    const Message message = unpack(bytes, 0);
+    EXPECT_EQ(message.head.size(), 1U);
 }
 
 }  // namespace

@@ -72,8 +72,10 @@ MetRanks meet_ranks(const JobSetup& setup, Transport& transport, const std::stri
                                       "could differ",
                                       host, head.at("povray").get<std::string>(), povray));
         const auto peer = static_cast<std::size_t>(message->peer);
-        met.ranks.at(peer) = {message->peer, host, head.at("slots"), 0, 0};
-        met.pools.at(peer) = head.at("pool");
+        constexpr int most_cores = 1 << 16;
+        met.ranks.at(peer) = {message->peer, host, int_from_json(head.at("slots"), 0, most_cores),
+                              0, 0};
+        met.pools.at(peer) = int_from_json(head.at("pool"), 0, most_cores);
     }
     if (setup.options.dedicated_coordinator) met.ranks[0].slots = 0;
     return met;

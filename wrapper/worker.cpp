@@ -62,12 +62,16 @@ void Worker::handle(const Message& message) {
 }
 
 void Worker::take_job(const nlohmann::json& head) {
+    constexpr int most_pixels = 1 << 30, most_threads = 1 << 16;
+    image_ = {int_from_json(head.at("width"), 1, most_pixels),
+              int_from_json(head.at("height"), 1, most_pixels)};
+    int_from_json(head.at("threads"), 1, most_threads);
+    int_from_json(head.at("block"), 0, most_pixels);
     cache_.begin(scratch_ / "radiosity.cache", head.at("cache_bytes"));
     ++jobs_;
     gathers_ = head.at("gathers");
     job_ = {head.at("povray"),  head.at("user_arguments"), head.at("format_arguments"),
             head.at("threads"), head.at("block"),          cache_.file()};
-    image_ = {head.at("width"), head.at("height")};
     timeout_seconds_.reset();
     if (!head.at("timeout_seconds").is_null())
         timeout_seconds_ = head.at("timeout_seconds").get<double>();
@@ -79,6 +83,9 @@ void Worker::start(const Message& message) {
     Section section{message.head.at("section"), rect_from_json(message.head.at("keep")),
                     rect_from_json(message.head.at("render"))};
     const int attempt = message.head.at("attempt");
+    if (section.render.empty() ||
+        intersect(section.render, {0, 0, image_.width, image_.height}) != section.render)
+        throw std::runtime_error("a section was assigned that does not lie in the image");
     try {
         PreparedLaunch prepared = launch(section, attempt);
         launches_.push_back(
