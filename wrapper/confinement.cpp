@@ -101,6 +101,14 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
     return !inside.empty() && *inside.begin() != "..";
 }
 
+void require_present(const char* option, const std::vector<fs::path>& paths) {
+    std::error_code error;
+    for (const fs::path& path : paths)
+        if (!fs::exists(path, error))
+            throw Failure(Exit::usage,
+                          fmt::format("{} '{}': no such file or folder", option, path.string()));
+}
+
 // POV-Ray breaks lines anywhere and drops nothing.
 std::optional<std::string> name_after(std::string_view text, const char* pattern) {
     std::string joined(text);
@@ -131,13 +139,16 @@ Confinement::Confinement(const Options& options, const HostResources& host, cons
     const fs::path settings = settings_of_user(home);
     environment_ = {{"HOME", write_configuration(own).string()}};
     if (!settings.empty()) environment_.emplace_back("POVINI", settings.string());
-    if (options.confine == Confining::off) return;
+    off_ = options.confine == Confining::off;
+    if (off_) return;
     if (!can_restrict_files()) {
         if (options.confine == Confining::automatic) return;
         throw Failure(Exit::usage,
                       "--confine on: this kernel cannot keep a program from files (Landlock, from "
                       "Linux 5.13 on)");
     }
+    require_present("--allow-read", options.allow_read);
+    require_present("--allow-write", options.allow_write);
     std::error_code error;
     const fs::path run_folder = fs::current_path(error);
     files_ = files_of_program(find_program(options.povray));
@@ -157,6 +168,16 @@ Confinement::Confinement(const Options& options, const HostResources& host, cons
     // Where it may write there anyway it does so as POV-Ray alone.
     for (const fs::path& folder : files_->write)
         if (lies_in(run_folder, folder)) writes_.any = false;
+}
+
+std::string Confinement::note() const {
+    if (writes_.any)
+        return "the scene writes files, which are removed with its launches: --allow-write . keeps "
+               "them";
+    if (on_ && !files_ && !off_)
+        return "this kernel cannot keep a scene from your files (Landlock); --confine on refuses "
+               "to render then";
+    return {};
 }
 
 std::uint64_t Confinement::memory_limit(int threads) const {
@@ -208,6 +229,8 @@ bool Confinement::may_read(const fs::path& file) const {
 
 std::string Confinement::way_out(std::string_view error) const {
     if (!on_) return {};
+    if (files_ && error.find("error while loading shared libraries") != std::string_view::npos)
+        return " (allow the folder of POV-Ray's libraries with --allow-read)";
     if (error.find("bad_alloc") != std::string_view::npos)
         return " (out of memory: allow a launch more with --memory-limit)";
     if (!files_) return {};

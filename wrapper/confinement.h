@@ -44,7 +44,8 @@ class Confinement {
 
     // By the command line and this process's own environment and folder. `own` is a folder of the
     // run's, where POV-Ray's configuration is put. Throws Failure: usage where --confine on is
-    // asked for and the kernel cannot, file where `own` cannot be written.
+    // asked for and the kernel cannot, or what is to be allowed is not there; file where `own`
+    // cannot be written.
     Confinement(const Options& options, const HostResources& host,
                 const std::filesystem::path& own);
 
@@ -55,6 +56,9 @@ class Confinement {
     // Whether files are out of its reach: not where the kernel cannot, nor with --confine off.
     bool restricts_files() const { return files_.has_value(); }
 
+    // What the user should know before he waits for the image; empty: nothing.
+    std::string note() const;
+
     // What a user can do about a launch that failed with this text of POV-Ray's: a sentence in
     // parentheses with a blank before it where a limit of ours was the cause, else empty.
     std::string way_out(std::string_view error) const;
@@ -64,7 +68,7 @@ class Confinement {
     std::uint64_t disk_limit(const LaunchNeeds& needs) const;
     bool may_read(const std::filesystem::path& file) const;
 
-    bool on_ = false;
+    bool on_ = false, off_ = false;  // limits at all; files left alone because the user says so
     std::optional<FileAccess> files_;
     std::vector<std::pair<std::string, std::string>> environment_;
     std::vector<std::filesystem::path> searched_;  // for names that are relative

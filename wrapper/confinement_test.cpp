@@ -59,6 +59,7 @@ TEST_F(ConfinementTest, GivesPovrayAHomeOfTheRuns) {
     EXPECT_TRUE(fs::exists(at("own/home/.povray/3.7/povray.conf")));
     EXPECT_EQ(request.argv, needs().argv);
     EXPECT_TRUE(request.working_directory.empty());
+    EXPECT_EQ(confinement().note().empty(), can_restrict_files());
 }
 
 TEST_F(ConfinementTest, KeepsTheUsersOwnSettings) {
@@ -102,6 +103,13 @@ TEST_F(ConfinementTest, SaysWhatMayBeAllowed) {
                 HasSubstr("--allow-write '" + at("other").string() + "'"));
     EXPECT_THAT(it.way_out("Parse Error: std::bad_alloc"), HasSubstr("--memory-limit"));
     EXPECT_THAT(Confinement().way_out("Parse Error: std::bad_alloc"), IsEmpty());
+}
+
+TEST_F(ConfinementTest, WhatIsToBeAllowedMustBeThere) {
+    if (!can_restrict_files()) GTEST_SKIP() << "this kernel has no Landlock";
+    options_.allow_read = {"../none"};
+    EXPECT_THAT([&] { confinement(); },
+                testing::ThrowsMessage<Failure>(HasSubstr("--allow-read '../none'")));
 }
 
 TEST_F(ConfinementTest, OffLeavesFilesAndLimitsTheRest) {
@@ -150,6 +158,7 @@ TEST_F(ConfinementTest, ASceneThatWritesRunsInAFolderOfItsLaunch) {
     std::ofstream(at("work/scene.pov")) << "#fopen F \"a.txt\" write\n";
     const ChildRequest request = confinement().request(needs());
     EXPECT_EQ(request.working_directory, at("launch/run"));
+    EXPECT_THAT(confinement().note(), HasSubstr("--allow-write"));
     EXPECT_TRUE(fs::exists(at("launch/run/scene.pov")));
     EXPECT_THAT(request.argv, Contains("+L\"" + at("work").string() + "\""));
     options_.allow_write = {"."};

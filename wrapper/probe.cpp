@@ -124,6 +124,8 @@ std::string check_resolved(const ProbeLaunches& launches, const ProbeRequest& re
     if (!launches.resolved() && is_option_error(text))  // POV-Ray does not say which one it is
         throw Failure(Exit::usage, fmt::format("POV-Ray: {}; it was given: {}", parse_error(text),
                                                fmt::join(request.user_arguments, " ")));
+    if (!launches.started() && !request.confinement.way_out(text).empty())
+        throw Failure(Exit::scene, describe_failure(text, request.confinement));
     std::string version = checked_version(request.povray, !launches.started(), text);
     if (!launches.resolved())
         throw Failure(Exit::scene, describe_failure(text, request.confinement));

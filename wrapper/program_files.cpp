@@ -28,9 +28,15 @@ constexpr std::array libraries{"/lib",
                                "/etc/ld.so.conf",
                                "/etc/ld.so.conf.d",
                                "/etc/ld.so.preload"};
-constexpr std::array anybodys{
-    "/dev/zero",           "/dev/random",       "/dev/urandom",           "/etc/localtime",
-    "/usr/share/zoneinfo", "/usr/share/locale", "/sys/devices/system/cpu"};
+constexpr std::array anybodys{"/dev/zero",
+                              "/dev/random",
+                              "/dev/urandom",
+                              "/etc/localtime",
+                              "/usr/share/zoneinfo",
+                              "/usr/share/locale",
+                              "/usr/share/fonts",
+                              "/usr/local/share/fonts",
+                              "/sys/devices/system/cpu"};
 // What a script may be made of.
 constexpr std::array programs{"/bin", "/sbin", "/usr", "/opt", "/etc"};
 

@@ -204,6 +204,8 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
         ProgressView progress(options.progress);
         for (const std::string& warning : probe.warnings) progress.say("POV-Ray: " + warning);
         for (const std::string& note : plan.notes) progress.say("mpipov: " + note);
+        if (const std::string note = worker.confinement().note(); !note.empty())
+            progress.inform("mpipov: " + note);
         CoordinatorSetup job = coordinator_setup(options, arguments, probe, plan, met.ranks);
         if (!plan.waves.empty())
             job.cache = gather_radiosity(gather_setup(options, job, plan, probe),
