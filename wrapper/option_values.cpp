@@ -168,11 +168,13 @@ void require_passable(const std::vector<std::string>& povray_arguments) {
         const auto control = std::ranges::find_if(
             argument, [](unsigned char c) { return (c < 0x20 && c != '\t') || c == 0x7f; });
         if (control == argument.end()) continue;
+        std::string shown = printable(argument);
+        std::ranges::replace(shown, '\n', '?');
         const char* what =
             *control == '\n' || *control == '\r' ? "line break" : "control character";
         throw Failure(Exit::usage, fmt::format("there is a {} in the argument '{}': POV-Ray is not "
                                                "given such names; rename the file",
-                                               what, printable(argument)));
+                                               what, shown));
     }
 }
 
