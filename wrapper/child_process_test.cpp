@@ -366,7 +366,7 @@ TEST_F(ChildProcessTest, ChildDiesWithAParentThatIsKilled) {
 
 TEST_F(ChildProcessTest, GuardStartsNothingForAParentThatIsGone) {
     ChildRequest request;
-    request.argv = {find_guard().string(), "1", "0", "0", "--", "echo", "started"};
+    request.argv = {find_guard().string(), "1", "0", "0", "free", "--", "echo", "started"};
     std::string output;
     EXPECT_THAT(run_to_end(request, &output).exit_code, Optional(127));
     EXPECT_THAT(output, HasSubstr("parent is gone, not starting 'echo'"));

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 namespace mpipov {
@@ -66,11 +67,12 @@ nlohmann::json rect_to_json(const Rect& r) {
 }
 
 Rect rect_from_json(const nlohmann::json& j) {
-    constexpr int most = 1 << 30;  // pixels: differences of two fit into an int
     if (!j.is_array() || j.size() != 4)
         throw std::runtime_error("a message between ranks has a rectangle that is none");
     std::array<int, 4> v{};
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] = int_from_json(j[i], -most, most);
+    for (std::size_t i = 0; i < v.size(); ++i)
+        v[i] =
+            int_from_json(j[i], std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
     return {v[0], v[1], v[2], v[3]};
 }
 
