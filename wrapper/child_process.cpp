@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -65,16 +66,17 @@ bool has_children(const std::string& process) {
     });
 }
 
-// Of all files in it; those that come and go meanwhile count or not.
+// What all files in it take of the disk (holes take nothing); those that come and go meanwhile
+// count or not.
 std::uint64_t bytes_in(const std::filesystem::path& folder) {
     std::uint64_t sum = 0;
     std::error_code error;
     std::filesystem::recursive_directory_iterator it(folder, error);
     for (; !error && it != std::filesystem::recursive_directory_iterator(); it.increment(error)) {
-        std::error_code gone;
-        const bool regular = it->symlink_status(gone).type() == std::filesystem::file_type::regular;
-        const std::uintmax_t size = regular ? it->file_size(gone) : 0;
-        sum += gone ? least_file_bytes : std::max<std::uintmax_t>(size, least_file_bytes);
+        struct stat status {};
+        const bool known = ::lstat(it->path().c_str(), &status) == 0;
+        const auto bytes = known ? static_cast<std::uint64_t>(status.st_blocks) * 512 : 0;
+        sum += std::max(bytes, least_file_bytes);
     }
     return sum;
 }

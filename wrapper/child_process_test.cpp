@@ -410,9 +410,9 @@ TEST_F(ChildProcessTest, FileSizeLimitHolds) {
 }
 
 TEST_F(ChildProcessTest, FolderLimitHolds) {
-    const ScratchFolder folder("child-test");
     for (const char* script : {"dd if=/dev/zero of=big bs=4096 count=100 2>/dev/null; sleep 60",
                                "for i in $(seq 100); do : > f$i; done; sleep 60"}) {
+        const ScratchFolder folder("child-test");
         ChildRequest request = shell(script);
         request.working_directory = folder.path();
         request.folder_limit = {folder.path(), 100000};
@@ -421,7 +421,9 @@ TEST_F(ChildProcessTest, FolderLimitHolds) {
         EXPECT_THAT(result.signal, Optional(SIGTERM)) << script;
         EXPECT_LT(result.wall_seconds, 30) << script;
     }
-    ChildRequest request = shell("sleep 0.5");
+    const ScratchFolder folder("child-test");
+    ChildRequest request = shell("truncate -s 1G holes; sleep 0.5");
+    request.working_directory = folder.path();
     request.folder_limit = {folder.path(), 1000000};
     EXPECT_FALSE(run_to_end(request).filled_folder);
 }

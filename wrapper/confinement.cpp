@@ -187,13 +187,18 @@ std::uint64_t Confinement::memory_limit(int threads) const {
     return std::max(least_memory_bytes, static_cast<std::uint64_t>(part));
 }
 
-std::uint64_t Confinement::disk_limit(const LaunchNeeds& needs) const {
-    if (!disk_.automatic) return disk_.bytes.value_or(0);
+std::optional<std::uint64_t> Confinement::file_limit(const LaunchNeeds& needs) const {
+    if (!disk_.automatic) return disk_.bytes;
+    if (!needs.pixels) return {};
+    return least_disk_bytes + disk_bytes_per_pixel * *needs.pixels;
+}
+
+std::optional<std::uint64_t> Confinement::folder_limit(const LaunchNeeds& needs) const {
+    if (!disk_.automatic) return disk_.bytes;
     std::error_code error;
     const fs::space_info space = fs::space(needs.folder, error);
     const std::uint64_t half = error ? least_disk_bytes : space.available / 2;
-    if (!needs.pixels) return half;
-    return std::min<std::uint64_t>(half, least_disk_bytes + disk_bytes_per_pixel * *needs.pixels);
+    return std::min(half, file_limit(needs).value_or(half));
 }
 
 ChildRequest Confinement::request(LaunchNeeds needs) const {
@@ -204,10 +209,8 @@ ChildRequest Confinement::request(LaunchNeeds needs) const {
     if (!on_) return request;
     request.environment.insert(request.environment.end(), environment_.begin(), environment_.end());
     if (const std::uint64_t bytes = memory_limit(needs.threads)) request.memory_limit_bytes = bytes;
-    if (const std::uint64_t bytes = disk_limit(needs)) {
-        request.file_size_limit_bytes = bytes;
-        request.folder_limit = {needs.folder, bytes};
-    }
+    request.file_size_limit_bytes = file_limit(needs);
+    if (const auto bytes = folder_limit(needs)) request.folder_limit = {needs.folder, *bytes};
     if (!files_) return request;
     request.files = files_;
     request.files->write.push_back(needs.folder);

@@ -32,8 +32,9 @@ struct LaunchNeeds {
     std::filesystem::path folder;  // its images and temporary files; nothing else is written
     std::optional<double> timeout_seconds = {};
     int threads = 1;
-    // Of the image that it writes a frame of. Not known: what half of the disk takes.
-    std::optional<std::uint64_t> pixels = 0;
+    // Of the image that it writes a frame of: POV-Ray keeps a large one in a file with holes, which
+    // is as long as all of it.
+    std::optional<std::uint64_t> pixels = 0;        // not known: a file may have any length
     std::vector<std::filesystem::path> reads = {};  // besides the scene's
 };
 
@@ -65,7 +66,8 @@ class Confinement {
 
   private:
     std::uint64_t memory_limit(int threads) const;
-    std::uint64_t disk_limit(const LaunchNeeds& needs) const;
+    std::optional<std::uint64_t> file_limit(const LaunchNeeds& needs) const;
+    std::optional<std::uint64_t> folder_limit(const LaunchNeeds& needs) const;
     bool may_read(const std::filesystem::path& file) const;
 
     bool on_ = false, off_ = false;  // limits at all; files left alone because the user says so

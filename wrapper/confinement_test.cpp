@@ -142,8 +142,13 @@ TEST_F(ConfinementTest, LimitsWhatALaunchWrites) {
     const std::uint64_t half = fs::space(at("launch")).available / 2;
     LaunchNeeds needs = this->needs();
     EXPECT_LE(confinement().request(needs).folder_limit.value().bytes, gib);
+    EXPECT_EQ(confinement().request(needs).file_size_limit_bytes, gib);
+    needs.pixels = std::uint64_t{60000} * 40000;
+    EXPECT_GT(confinement().request(needs).file_size_limit_bytes.value_or(0), *needs.pixels * 20)
+        << "the file with holes, whatever is free";
     needs.pixels.reset();
     const std::uint64_t most = confinement().request(needs).folder_limit.value().bytes;
+    EXPECT_FALSE(confinement().request(needs).file_size_limit_bytes);
     EXPECT_GT(most, half / 2);
     EXPECT_LT(most, half * 2);
     options_.disk_limit = {false, 5 * mib};

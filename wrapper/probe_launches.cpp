@@ -122,7 +122,7 @@ double small_timeout(const ProbeRequest& request) {
 }
 
 ChildRequest small_request(const ProbeRequest& request, const std::filesystem::path& folder,
-                           std::vector<std::string> argv, std::uint64_t pixels) {
+                           std::vector<std::string> argv, std::optional<std::uint64_t> pixels) {
     LaunchNeeds needs{std::move(argv), folder, small_timeout(request)};
     needs.pixels = pixels;
     return request.confinement.request(std::move(needs));

@@ -41,9 +41,9 @@ std::vector<std::string> small_command(const ProbeRequest& request,
 // take long to be parsed.
 double small_timeout(const ProbeRequest& request);
 
-// A small launch in `folder`, confined; `pixels`: of the frame where it is not small.
+// A small launch in `folder`, confined; `pixels` of the frame that it writes, see LaunchNeeds.
 ChildRequest small_request(const ProbeRequest& request, const std::filesystem::path& folder,
-                           std::vector<std::string> argv, std::uint64_t pixels = 0);
+                           std::vector<std::string> argv, std::optional<std::uint64_t> pixels);
 
 // The file without its extension that the launch in this folder writes.
 std::filesystem::path small_image(const std::filesystem::path& folder);
@@ -95,7 +95,8 @@ class ProbeLaunches {
     const ProbeRequest& request_;
     std::vector<ShortLaunch> launches_;
     std::filesystem::path cache_;  // of the launch in the first order
-    std::uint64_t pixels_ = 0;     // of the frame that its renders write
+    // Of the frame that its renders write; that of the launch that resolves is the user's.
+    std::optional<std::uint64_t> pixels_ = {};
     int started_ = 0, views_ = 0;
     bool radiosity_told_ = false;
     double earlier_cpu_seconds_ = 0;
