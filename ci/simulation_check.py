@@ -74,7 +74,8 @@ def stand_in_case(programs, folder, fake, ranks, schedule, slots):
     povray.chmod(0o755)
     sections = 4 * ranks * slots if schedule != "static" else ranks * slots
     own = ["--povray", povray, "--sections", sections, "--shape", "tiles", "--seams", "plain",
-           "--schedule", schedule, "--slots", slots, "--in-flight", slots, "--threads", 1]
+           "--schedule", schedule, "--slots", slots, "--in-flight", slots, "--threads", 1,
+           "--confine", "off"]  # it runs a program from the build folder
     require_success(programs.mpi(ranks, [SCENE, f"+W{SIZE}", f"+H{SIZE}", "-A", "+FP",
                                          "+Oimage.ppm", *own, "--record", "run.json",
                                          "--progress", "none"], folder))

@@ -61,6 +61,11 @@ std::string read_new_samples(const std::filesystem::path& file, std::size_t know
         const auto end = static_cast<std::streamoff>(in.tellg());
         if (!in || end < static_cast<std::streamoff>(known))
             throw failure("a radiosity cache is shorter than it was");
+        if (static_cast<std::size_t>(end) - known > max_samples_bytes)
+            throw Failure(Exit::scene,
+                          fmt::format("POV-Ray wrote {} bytes of radiosity samples, and {} are "
+                                      "taken of a launch at most",
+                                      static_cast<std::size_t>(end) - known, max_samples_bytes));
         in.seekg(static_cast<std::streamoff>(known));
         text.resize(static_cast<std::size_t>(end) - known);
         if (!in.read(text.data(), static_cast<std::streamsize>(text.size())))

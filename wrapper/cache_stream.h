@@ -33,10 +33,14 @@ class ReceivedCache {
     std::size_t announced_ = 0, received_ = 0;
 };
 
+// No more is taken of one launch: it lies in memory, here and on rank 0.
+constexpr std::size_t max_samples_bytes = std::size_t{1} << 30;
+
 // What POV-Ray wrote to `file` behind the `known` bytes that were there before; nothing where there
 // is no file, as where nothing in a section is lit. `calculated`: how many samples it says that it
-// took. Throws Failure(Exit::file) where it cannot be read, is shorter, holds a line that is no
-// sample, or holds fewer: where a disk is full POV-Ray saves what fits, and exits with 0.
+// took. Throws Failure(Exit::file) where it cannot be read, is shorter, is longer than may be,
+// holds a line that is no sample, or holds fewer: where a disk is full POV-Ray saves what fits, and
+// exits with 0.
 std::string read_new_samples(const std::filesystem::path& file, std::size_t known,
                              long long calculated);
 

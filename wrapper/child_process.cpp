@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -31,6 +32,9 @@ constexpr double reap_seconds = 5;    // how long the destructor waits after KIL
 constexpr double idle_seconds = 0.1;  // so that memory is sampled now and then
 constexpr double idle_seconds_without_pidfd = 0.01;
 constexpr double sample_seconds = 0.05;  // between two looks at the child's memory
+constexpr double folder_seconds = 0.2;   // and at its folder
+// What a file takes at least, so that a folder of very many empty ones is full too.
+constexpr std::uint64_t least_file_bytes = 4096;
 constexpr std::size_t drain_limit = 1
                                     << 20;  // bytes one poll() takes: a chatterbox must not hold us
 
@@ -60,6 +64,21 @@ bool has_children(const std::string& process) {
         std::ifstream children(thread.path() / "children");
         return !children || children.peek() != std::ifstream::traits_type::eof();
     });
+}
+
+// What all files in it take of the disk (holes take nothing); those that come and go meanwhile
+// count or not.
+std::uint64_t bytes_in(const std::filesystem::path& folder) {
+    std::uint64_t sum = 0;
+    std::error_code error;
+    std::filesystem::recursive_directory_iterator it(folder, error);
+    for (; !error && it != std::filesystem::recursive_directory_iterator(); it.increment(error)) {
+        struct stat status {};
+        const bool known = ::lstat(it->path().c_str(), &status) == 0;
+        const auto bytes = known ? static_cast<std::uint64_t>(status.st_blocks) * 512 : 0;
+        sum += std::max(bytes, least_file_bytes);
+    }
+    return sum;
 }
 
 }  // namespace
@@ -98,12 +117,14 @@ class ChildProcess::State {
     bool has_exited();
     void reap();
     void sample_memory();
+    void look_at_folder();
     void enforce_deadlines();
 
     Clock::time_point start_ = Clock::now();
     std::optional<double> timeout_;  // these three: seconds since start_
     std::optional<double> kill_at_;
-    double next_sample_ = 0;
+    double next_sample_ = 0, next_look_at_folder_ = 0;
+    std::optional<FolderLimit> folder_limit_;
     double grace_;
     pid_t pid_ = -1;
     Fd pipe_, pidfd_;
@@ -115,6 +136,7 @@ class ChildProcess::State {
 
 ChildProcess::State::State(const ChildRequest& request)
     : timeout_(request.timeout_seconds),
+      folder_limit_(request.folder_limit),
       grace_(request.grace_seconds),
       text_(request.capture_limit) {}
 
@@ -200,6 +222,14 @@ void ChildProcess::State::sample_memory() {
     sampled_peak_ = std::max(sampled_peak_, peak_memory(std::to_string(pid_)));
 }
 
+void ChildProcess::State::look_at_folder() {
+    if (!folder_limit_ || kill_at_ || elapsed() < next_look_at_folder_) return;
+    next_look_at_folder_ = elapsed() + folder_seconds;
+    if (bytes_in(folder_limit_->folder) <= folder_limit_->bytes) return;
+    result_.filled_folder = true;
+    begin_termination();
+}
+
 double ChildProcess::State::cpu_seconds() const {
     if (ended_) return result_.cpu_seconds;
     clockid_t clock{};
@@ -247,6 +277,7 @@ bool ChildProcess::State::poll() {
         return true;
     }
     sample_memory();
+    look_at_folder();
     enforce_deadlines();
     return false;
 }

@@ -13,6 +13,8 @@
 // neither exit code nor signal.
 #pragma once
 
+#include "landlock.h"
+
 #include <poll.h>
 
 #include <cstddef>
@@ -27,6 +29,12 @@
 
 namespace mpipov {
 
+// A folder that the program may fill so far; then it gets TERM. Looked at a few times a second.
+struct FolderLimit {
+    std::filesystem::path folder;
+    std::uint64_t bytes = 0;
+};
+
 struct ChildRequest {
     // argv[0] is looked up on the child's PATH; with a '/' it is a file, seen from our own folder.
     std::vector<std::string> argv;
@@ -35,8 +43,10 @@ struct ChildRequest {
     std::optional<double> timeout_seconds;                         // from start() to TERM
     double grace_seconds = 2.0;                                    // from TERM to KILL
     std::size_t capture_limit = std::size_t{4} << 20;  // bytes of output to keep, see output()
-    std::optional<std::uint64_t> memory_limit_bytes;   // of address space, RLIMIT_AS
+    std::optional<std::uint64_t> memory_limit_bytes;   // of what it can write to, RLIMIT_DATA
     std::optional<std::uint64_t> file_size_limit_bytes;
+    std::optional<FolderLimit> folder_limit;
+    std::optional<FileAccess> files;  // nothing else of the file system; not given: all of it
 };
 
 struct ChildResult {
@@ -44,6 +54,7 @@ struct ChildResult {
     std::optional<int> signal;     // that ended it
     bool timed_out = false;        // it got TERM because its time was up
     double timeout_seconds = 0;    // that time, where it was
+    bool filled_folder = false;    // it got TERM because of its folder_limit
     bool cancelled = false;        // terminate() or kill_now() was called
     double wall_seconds = 0;       // from start() until poll() saw the end
     double cpu_seconds = 0;        // user + system, of the child and of what it waited for

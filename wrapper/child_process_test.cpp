@@ -366,7 +366,7 @@ TEST_F(ChildProcessTest, ChildDiesWithAParentThatIsKilled) {
 
 TEST_F(ChildProcessTest, GuardStartsNothingForAParentThatIsGone) {
     ChildRequest request;
-    request.argv = {find_guard().string(), "1", "0", "0", "--", "echo", "started"};
+    request.argv = {find_guard().string(), "1", "0", "0", "free", "--", "echo", "started"};
     std::string output;
     EXPECT_THAT(run_to_end(request, &output).exit_code, Optional(127));
     EXPECT_THAT(output, HasSubstr("parent is gone, not starting 'echo'"));
@@ -407,6 +407,25 @@ TEST_F(ChildProcessTest, FileSizeLimitHolds) {
     request.file_size_limit_bytes = 10000;
     EXPECT_THAT(run_to_end(request).signal, Optional(SIGXFSZ));
     EXPECT_LE(fs::file_size(folder.path() / "big"), 10000U);
+}
+
+TEST_F(ChildProcessTest, FolderLimitHolds) {
+    for (const char* script : {"dd if=/dev/zero of=big bs=4096 count=100 2>/dev/null; sleep 60",
+                               "for i in $(seq 100); do : > f$i; done; sleep 60"}) {
+        const ScratchFolder folder("child-test");
+        ChildRequest request = shell(script);
+        request.working_directory = folder.path();
+        request.folder_limit = {folder.path(), 100000};
+        const ChildResult result = run_to_end(request);
+        EXPECT_TRUE(result.filled_folder) << script;
+        EXPECT_THAT(result.signal, Optional(SIGTERM)) << script;
+        EXPECT_LT(result.wall_seconds, 30) << script;
+    }
+    const ScratchFolder folder("child-test");
+    ChildRequest request = shell("truncate -s 1G holes; sleep 0.5");
+    request.working_directory = folder.path();
+    request.folder_limit = {folder.path(), 1000000};
+    EXPECT_FALSE(run_to_end(request).filled_folder);
 }
 
 TEST_F(ChildProcessTest, CpuSecondsCountTheChildAndWhatItWaitedFor) {

@@ -9,21 +9,19 @@
 
 namespace mpipov {
 
-void look_closer(const JobSetup& setup, const std::vector<std::string>& arguments,
-                 const std::filesystem::path& folder, ProbeResult& probe, PlanRecord& plan,
-                 Totals& totals) {
+void look_closer(const JobSetup& setup, const ProbeRequest& request, ProbeResult& probe,
+                 PlanRecord& plan, Totals& totals) {
     const Options& options = setup.options;
     std::optional<double> scale;
     if (options.dry_run)
-        scale = readable_scale(probe, small_view(arguments).size);
+        scale = readable_scale(probe, small_view(request.user_arguments).size);
     else if (!options.resume)  // of a run that goes on from a journal little may be left
         scale = unnoticed_scale(probe, plan.predicted.wall_seconds, setup.pool0);
     if (!scale) return;
-    LookedAt looked = look_at_qualities(
-        {options.povray, arguments, folder, options.timeout_seconds}, probe, *scale);
+    const LookedAt looked = look_at_qualities(request, probe, *scale);
     totals.cpu_seconds += looked.cpu_seconds;
     totals.launches += looked.launches;
-    probe.look = std::move(looked.look);
+    probe.look = looked.look;
     plan.effects = find_effects(probe);
 }
 

@@ -6,16 +6,11 @@
 #include "render_job.h"
 #include "run_record.h"
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
 namespace mpipov {
 
-// `probe` is of the same arguments, `plan` made from it; the launches count in `totals`. `folder`
-// must not exist. Throws Failure(Exit::interrupted).
-void look_closer(const JobSetup& setup, const std::vector<std::string>& arguments,
-                 const std::filesystem::path& folder, ProbeResult& probe, PlanRecord& plan,
-                 Totals& totals);
+// `probe` is of the same arguments, `plan` made from it; the launches count in `totals`. The
+// request's folder must not exist. Throws Failure(Exit::interrupted).
+void look_closer(const JobSetup& setup, const ProbeRequest& request, ProbeResult& probe,
+                 PlanRecord& plan, Totals& totals);
 
 }  // namespace mpipov

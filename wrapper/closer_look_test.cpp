@@ -22,8 +22,9 @@ int launches(double predicted_seconds, const std::function<void(Options&)>& chan
     PlanRecord plan;
     plan.predicted.wall_seconds = predicted_seconds;
     Totals totals;
-    look_closer(setup, {"scene.pov", "+W512", "+H512"}, scratch.path() / "look", probe, plan,
-                totals);
+    look_closer(
+        setup, {setup.options.povray, {"scene.pov", "+W512", "+H512"}, scratch.path() / "look", {}},
+        probe, plan, totals);
     EXPECT_FALSE(probe.look);
     EXPECT_EQ(plan.effects.empty(), totals.launches == 0);
     return totals.launches;

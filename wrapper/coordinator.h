@@ -12,6 +12,7 @@
 #include "transport.h"
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -47,6 +48,8 @@ class Coordinator {
     Coordinator(CoordinatorSetup setup, Transport& transport, Canvas& canvas, Journal* journal,
                 std::function<double()> clock);
 
+    // What the pixels of a section take; none where there is no such section.
+    std::optional<std::uintmax_t> bytes_of(int section) const;
     // A section that an earlier run finished; before start().
     void resume(int section, const nlohmann::json& about, std::span<const std::byte> pixels);
 

@@ -37,6 +37,9 @@ void Coordinator::take_samples(const Message& message) {
         throw std::runtime_error(
             fmt::format("rank {} sent samples and was to render pixels", message.peer));
     keep_only(*source.progress, *source.run);
+    if (message.body.size() > max_samples_bytes - source.progress->samples.size())
+        throw std::runtime_error(
+            fmt::format("rank {} sent more samples than a launch may gather", message.peer));
     source.progress->samples.append(reinterpret_cast<const char*>(message.body.data()),
                                     message.body.size());
 }

@@ -57,6 +57,15 @@ TEST(CoordinatorCache, SamplesComeBySectionWhicheverEndsFirst) {
     }
 }
 
+TEST(CoordinatorCache, BytesOfASectionAreThoseOfItsPixels) {
+    Rig rig(columns(4, 1));
+    const Rect render = make_partition(columns(4, 1).grid).sections.at(3).render;
+    EXPECT_EQ(rig.coordinator().bytes_of(3),
+              static_cast<std::uintmax_t>(render.area()) * known_channels);
+    EXPECT_FALSE(rig.coordinator().bytes_of(4));
+    EXPECT_FALSE(rig.coordinator().bytes_of(-1));
+}
+
 TEST(CoordinatorCache, WhatAFailedAttemptSentDoesNotCount) {
     RigSetup setup = columns(5, 2);
     setup.gathers = true;

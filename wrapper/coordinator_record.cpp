@@ -15,6 +15,12 @@ nlohmann::json about_section(const SectionRecord& record) {
             {"attempts", record.attempts}};
 }
 
+std::optional<std::uintmax_t> Coordinator::bytes_of(int section) const {
+    if (section < 0 || section >= static_cast<int>(sections_.size())) return {};
+    const Rect& render = sections_[static_cast<std::size_t>(section)].record.section.render;
+    return static_cast<std::uintmax_t>(render.area()) * canvas_.layout().bytes_per_pixel();
+}
+
 void Coordinator::resume(int section, const nlohmann::json& what,
                          std::span<const std::byte> pixels) {
     Progress& progress = sections_.at(static_cast<std::size_t>(section));

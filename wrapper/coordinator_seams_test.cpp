@@ -233,7 +233,8 @@ TEST(CoordinatorResume, GoesOnFromTheJournalOfARunThatFailed) {
     setup.journal = &journal;
     setup.worker.fault = FakeWorkerSetup{}.fault;
     Rig rig(setup);
-    const std::vector<Journal::Finished> finished = journal.finished();
+    const std::vector<Journal::Finished> finished =
+        journal.finished([&](int section) { return rig.coordinator().bytes_of(section); });
     EXPECT_EQ(finished.size(), 4u);
     for (const Journal::Finished& f : finished)
         rig.coordinator().resume(f.section, f.about, journal.read(f.section));

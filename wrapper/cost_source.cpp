@@ -49,8 +49,10 @@ ShortLaunch launch(const ProbeRequest& request, const ImageSize& size, const Rec
     JobCommand job{request.povray, request.user_arguments, {}, 1, 0};
     job.user_arguments.push_back(fmt::format("+W{}", size.width));
     job.user_arguments.push_back(fmt::format("+H{}", size.height));
-    return ShortLaunch::start(section_command(job, rect, size, base), base,
-                              request.timeout_seconds);
+    return ShortLaunch::start(
+        request.confinement.request(
+            {section_command(job, rect, size, base), base.parent_path(), small_timeout(request)}),
+        base);
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ bool could_be_one_launch(const Options& options) {
 
 std::optional<EarlyRender> start_early(const JobSetup& setup, int ranks,
                                        const std::vector<std::string>& arguments,
-                                       const std::filesystem::path& folder) {
+                                       const std::filesystem::path& folder,
+                                       const Confinement& confinement) {
     const Options& options = setup.options;
     if (!could_be_one_launch(options) || setup.ranks_of_host != ranks) return {};
     JobCommand job;
@@ -26,10 +27,13 @@ std::optional<EarlyRender> start_early(const JobSetup& setup, int ranks,
     job.user_arguments = arguments;
     job.threads = options.threads.value_or(setup.pool0);
     LaunchFolder own(folder);
-    ChildRequest request;
-    request.argv = whole_command(job, own.path() / section_image_name);
-    request.environment = temporary_files_in(own.path());
-    return EarlyRender{{std::move(own), ChildProcess::start(request)}, job.threads};
+    LaunchNeeds needs;
+    needs.argv = whole_command(job, own.path() / section_image_name);
+    needs.folder = own.path();
+    needs.threads = job.threads;
+    needs.pixels.reset();
+    return EarlyRender{{std::move(own), ChildProcess::start(confinement.request(std::move(needs)))},
+                       job.threads};
 }
 
 }  // namespace mpipov

@@ -4,6 +4,7 @@
 // idle start-up.
 #pragma once
 
+#include "confinement.h"
 #include "prepared_launch.h"
 #include "render_job.h"
 
@@ -22,6 +23,7 @@ struct EarlyRender {
 // None where the options rule out such a plan, or other hosts have ranks. `folder` must not exist.
 std::optional<EarlyRender> start_early(const JobSetup& setup, int ranks,
                                        const std::vector<std::string>& arguments,
-                                       const std::filesystem::path& folder);
+                                       const std::filesystem::path& folder,
+                                       const Confinement& confinement);
 
 }  // namespace mpipov

@@ -18,7 +18,7 @@ class EarlyRenderTest : public testing::Test {
         setup.pool0 = 2;
         setup.ranks_of_host = 2;
         change(setup);
-        const auto early = start_early(setup, ranks, {"scene.pov"}, scratch_.path() / "early");
+        const auto early = start_early(setup, ranks, {"scene.pov"}, scratch_.path() / "early", {});
         return early.has_value();
     }
     ScratchFolder scratch_{"early-test"};

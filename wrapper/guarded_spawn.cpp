@@ -1,6 +1,7 @@
 #include "guarded_spawn.h"
 
 #include "installed_file.h"
+#include "landlock.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -18,6 +19,8 @@
 
 namespace mpipov {
 namespace {
+
+constexpr int ruleset_number = 3;  // as the guard has it
 
 void check(int error, const std::string& what) {
     if (error != 0) throw std::system_error(error, std::generic_category(), what);
@@ -79,11 +82,14 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
 
 std::vector<std::string> guarded_argv(const std::filesystem::path& guard,
                                       const ChildRequest& request) {
-    std::vector<std::string> argv{guard.string(), std::to_string(::getpid()),
+    std::vector<std::string> argv{guard.string(),
+                                  std::to_string(::getpid()),
                                   std::to_string(request.memory_limit_bytes.value_or(0)),
-                                  std::to_string(request.file_size_limit_bytes.value_or(0)), "--"};
+                                  std::to_string(request.file_size_limit_bytes.value_or(0)),
+                                  request.files ? "restricted" : "free",
+                                  "--"};
     argv.insert(argv.end(), request.argv.begin(), request.argv.end());
-    std::string& program = argv[5];
+    std::string& program = argv[6];
     if (!request.working_directory.empty() && program.find('/') != std::string::npos) {
         program = std::filesystem::absolute(program).string();
     }
@@ -114,8 +120,18 @@ Spawned spawn_guarded(const ChildRequest& request) {
     check(posix_spawn_file_actions_addopen(a, STDIN_FILENO, "/dev/null", O_RDONLY, 0), what);
     check(posix_spawn_file_actions_adddup2(a, writer.get(), STDOUT_FILENO), what);
     check(posix_spawn_file_actions_adddup2(a, writer.get(), STDERR_FILENO), what);
+    Fd ruleset;
+    if (request.files) {
+        ruleset = make_ruleset(*request.files);
+        // It may be the very number already, and dup2() to itself would leave it to be closed.
+        ruleset = Fd(::fcntl(ruleset.get(), F_DUPFD_CLOEXEC, ruleset_number + 1));
+        if (ruleset.get() < 0) check(errno, what + ": no descriptor");
+        check(posix_spawn_file_actions_adddup2(a, ruleset.get(), ruleset_number), what);
+    }
     // Libraries open descriptors without O_CLOEXEC, and mpiexec hands its own down.
-    check(posix_spawn_file_actions_addclosefrom_np(a, STDERR_FILENO + 1), what);
+    check(posix_spawn_file_actions_addclosefrom_np(
+              a, (request.files ? ruleset_number : STDERR_FILENO) + 1),
+          what);
     if (!folder.empty()) check(posix_spawn_file_actions_addchdir_np(a, folder.c_str()), what);
 
     Attributes attributes(what);

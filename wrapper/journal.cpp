@@ -241,16 +241,20 @@ void Journal::finish(int section, const json& about) {
     if (!out.flush()) cannot("write", file);
 }
 
-std::vector<Journal::Finished> Journal::finished() const {
+std::vector<Journal::Finished> Journal::finished(const SectionBytes& bytes_of) const {
     std::map<int, Entry> last;  // of a section that was finished twice, the last line counts
     std::ifstream in(folder_ / sections_name);
     for (std::string line; std::getline(in, line);) {
         if (auto entry = read_entry(line)) last.insert_or_assign(entry->section, std::move(*entry));
     }
     std::vector<Finished> finished;
-    for (auto& [section, entry] : last)
+    for (auto& [section, entry] : last) {
+        std::error_code error;
+        const auto size = std::filesystem::file_size(pixel_file(section), error);
+        if (error || bytes_of(section) != size) continue;
         if (sha1_of_file(pixel_file(section)) == entry.sha1)
             finished.push_back({section, std::move(entry.about)});
+    }
     return finished;
 }
 

@@ -11,9 +11,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,8 +45,11 @@ class Journal {
         int section = 0;
         nlohmann::json about;
     };
-    // What earlier runs finished and whose pixels are still as they were.
-    std::vector<Finished> finished() const;
+    // What earlier runs finished and whose pixels are still as they were. `bytes_of` says how many
+    // bytes the pixels of a section take, or that there is none of this number: files of other
+    // sizes are not even read.
+    using SectionBytes = std::function<std::optional<std::uintmax_t>(int section)>;
+    std::vector<Finished> finished(const SectionBytes& bytes_of) const;
     // The pixels of such a section, all rows of `render`. Throws Failure(Exit::file).
     std::vector<std::byte> read(int section) const;
 

@@ -47,6 +47,9 @@ class JournalTest : public testing::Test {
         take_all(journal, section);
         journal.finish(section, {{"rank", section * 10}});
     }
+    static std::optional<std::uintmax_t> section_bytes(int section) {
+        return section < 7 ? std::optional<std::uintmax_t>(24) : std::nullopt;
+    }
     // A journal of sections 0, 1 and 2 that an earlier run left.
     void leave_three() const {
         Journal journal = Journal::create(folder(), identity, plan);
@@ -54,7 +57,7 @@ class JournalTest : public testing::Test {
     }
     static std::vector<int> ids(const Journal& journal) {
         std::vector<int> found;
-        for (const Journal::Finished& finished : journal.finished())
+        for (const Journal::Finished& finished : journal.finished(section_bytes))
             found.push_back(finished.section);
         return found;
     }
@@ -85,7 +88,7 @@ TEST_F(JournalTest, GivesBackWhatWasFinished) {
     leave_three();
     const Journal journal = Journal::open(folder(), identity);
     EXPECT_EQ(journal.plan(), plan);
-    const auto finished = journal.finished();
+    const auto finished = journal.finished(section_bytes);
     ASSERT_EQ(finished.size(), 3u);
     for (int section = 0; section < 3; ++section) {
         const auto i = static_cast<std::size_t>(section);
@@ -169,6 +172,23 @@ TEST_F(JournalTest, DamagedPixelsDoNotCount) {
     EXPECT_THAT(ids(Journal::open(folder(), identity)), ElementsAre(0));
     fs::remove(folder() / "0.pixels");
     EXPECT_THAT(ids(Journal::open(folder(), identity)), IsEmpty());
+}
+
+TEST_F(JournalTest, PixelsOfAnotherSizeDoNotCountAndAreNotRead) {
+    leave_three();
+    fs::resize_file(folder() / "1.pixels", std::uintmax_t{1} << 40);  // takes no space
+    EXPECT_THAT(ids(Journal::open(folder(), identity)), ElementsAre(0, 2));
+}
+
+TEST_F(JournalTest, SectionsThatThereAreNotDoNotCount) {
+    leave_three();
+    for (const char* number : {"7", "-1", "4294967297"}) {
+        fs::copy_file(folder() / "1.pixels", folder() / (std::string(number) + ".pixels"));
+        std::ofstream(folder() / "sections.jsonl", std::ios::app)
+            << R"({"section":)" << number << R"(,"sha1":")" << sha1_of_file(folder() / "1.pixels")
+            << R"(","about":{}})" << '\n';
+    }
+    EXPECT_THAT(ids(Journal::open(folder(), identity)), ElementsAre(0, 1, 2));
 }
 
 TEST_F(JournalTest, FinishingWithoutPixelsIsAFailure) {
@@ -362,7 +382,7 @@ TEST_F(JournalTest, ADamagedJournalIsNotBelieved) {
     std::ofstream(folder() / "sections.jsonl")
         << R"({"section": 4294967296, "sha1": "", "about": {}})" << '\n'
         << R"({"section": -1, "sha1": "", "about": {}})" << '\n';
-    EXPECT_THAT(journal.finished(), IsEmpty());
+    EXPECT_THAT(journal.finished(section_bytes), IsEmpty());
     journal.remove();
     EXPECT_FALSE(fs::exists(folder()));
 }

@@ -1,13 +1,16 @@
-// Why a launch of POV-Ray that has ended did not work out, for the user: its time was up, a signal,
-// or else POV-Ray's own words; and whether it may have been the disk.
+// Why a launch of POV-Ray that has ended did not work out, for the user: its time was up, a limit,
+// a signal, or else POV-Ray's own words, with what can be done about it where a limit of ours was
+// the cause; and whether it may have been the disk.
 #pragma once
 
 #include "child_process.h"
+#include "confinement.h"
 #include "failure.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace mpipov {
 
@@ -16,15 +19,21 @@ struct LaunchFailure {
     Exit code = Exit::scene;  // Exit::file: the disk
 };
 
-// `folder` is where the launch wrote its files, `frame_bytes` what those may take: of a file that
-// it has no room for POV-Ray says "Cannot access data in file." and removes it, so the disk is
-// asked.
-LaunchFailure launch_failure(const ChildProcess& child, const std::filesystem::path& folder,
-                             std::uintmax_t frame_bytes);
+// Where a launch writes its files, which must still be there, and what those may take.
+struct LaunchPlace {
+    std::filesystem::path folder;
+    std::uintmax_t frame_bytes = 0;
+};
 
-// The same failure where there is room for the frame, and else one of the disk that names both.
-LaunchFailure blame_full_disk(LaunchFailure failure, const std::filesystem::path& folder,
-                              std::uintmax_t frame_bytes);
+LaunchFailure launch_failure(const ChildProcess& child, const Confinement& confinement,
+                             const LaunchPlace& place);
+
+// Of one that said this.
+std::string describe_failure(std::string_view output, const Confinement& confinement);
+
+// The same failure where there is room for the frame, and else one of the disk that names both: of
+// a file that it has no room for POV-Ray says "Cannot access data in file." and removes it.
+LaunchFailure blame_full_disk(LaunchFailure failure, const LaunchPlace& place);
 
 // The most that a frame of POV-Ray's takes in any file type, bytes.
 constexpr std::uintmax_t frame_bytes(int width, int height) {

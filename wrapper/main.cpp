@@ -1,9 +1,11 @@
 // mpipov: parses the command line, and runs the coordinator (rank 0) and a worker (every rank).
+#include "confinement.h"
 #include "event_loop.h"
 #include "failure.h"
 #include "interrupt.h"
 #include "mpi_transport.h"
 #include "options.h"
+#include "printable.h"
 #include "probe.h"
 #include "render_job.h"
 #include "scratch.h"
@@ -17,6 +19,7 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string>
@@ -80,6 +83,11 @@ Self about_this_rank(const Options& options, int rank) {
             share.local_size};
 }
 
+Confinement confinement_of(const Options& options, const Self& self, const ScratchFolder& scratch) {
+    const int cores = std::max(self.pool, self.record.slots * self.ranks_of_host);
+    return {options, resources_of_host(cores), scratch.path()};
+}
+
 void send_refusal(Transport& transport, const RankRecord& self, Exit code, const std::string& why) {
     constexpr double patience_seconds = 10, interrupted_seconds = 1;
     transport.send({MessageKind::refused,
@@ -96,7 +104,7 @@ void serve(const Options& options, const Self& self, Transport& transport) {
     const RankRecord& record = self.record;
     try {
         const ScratchFolder scratch(fmt::format("rank{}", record.rank));
-        Worker worker(transport, scratch.path());
+        Worker worker(transport, scratch.path(), confinement_of(options, self, scratch));
         const std::string povray = povray_version(options.povray);
         transport.send({MessageKind::hello,
                         0,
@@ -115,7 +123,7 @@ void serve(const Options& options, const Self& self, Transport& transport) {
 
 // Does not throw where nobody listens.
 void complain(const std::string& what) {
-    std::fputs(fmt::format("mpipov: {}\n", what).c_str(), stderr);
+    std::fputs(fmt::format("mpipov: {}\n", printable(what)).c_str(), stderr);
 }
 
 // Tells the other ranks to stop and hears them out: MPI must not be left with unread messages.
@@ -135,7 +143,8 @@ bool dismiss(Transport& transport) {
 void coordinate(const Options& options, const std::vector<std::string>& arguments, const Self& self,
                 Transport& transport) {
     const ScratchFolder scratch("rank0");
-    Worker worker(transport, scratch.path());  // its end ends its launches
+    Worker worker(transport, scratch.path(),
+                  confinement_of(options, self, scratch));  // its end ends its launches
     JobSetup setup;
     setup.options = options;
     setup.command = arguments;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 namespace mpipov {
@@ -51,6 +52,15 @@ Message unpack(std::span<const std::byte> bytes, int from) {
     const auto body = bytes.subspan(prefix_bytes + head_size);
     message.body.assign(body.begin(), body.end());
     return message;
+}
+
+int int_from_json(const nlohmann::json& json, int least, int most) {
+    const auto number = json.is_number_integer() ? json.get<std::int64_t>() : std::int64_t{-1};
+    // What does not fit into 64 bits with a sign is no number of ours either.
+    const bool too_large = json.is_number_unsigned() && number < 0;
+    if (!json.is_number_integer() || too_large || number < least || number > most)
+        throw std::runtime_error("a message between ranks has an impossible number");
+    return static_cast<int>(number);
 }
 
 nlohmann::json rect_to_json(const Rect& r) {

@@ -42,6 +42,9 @@ std::vector<std::byte> pack(const Message& message);
 // Throws std::runtime_error where the bytes are no message of ours.
 Message unpack(std::span<const std::byte> bytes, int from);
 
+// A whole number within these bounds. Throws std::runtime_error where it is anything else.
+int int_from_json(const nlohmann::json& json, int least, int most);
+
 nlohmann::json rect_to_json(const struct Rect& rect);
 // Throws std::runtime_error where it is anything else than four whole numbers from 0.
 struct Rect rect_from_json(const nlohmann::json& json);

@@ -1,11 +1,15 @@
 #include "option_values.h"
 
 #include "failure.h"
+#include "printable.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 
 namespace mpipov {
 namespace {
@@ -121,6 +125,57 @@ void set_timeout(Options& o, const std::string& value) {
     if (used != value.size() || !(seconds > 0) || !std::isfinite(seconds))
         bad_value(value, "auto or a number of seconds");
     o.timeout_seconds = seconds;
+}
+
+void set_confine(Options& o, const std::string& value) {
+    if (value == "auto")
+        o.confine = Confining::automatic;
+    else if (value == "on")
+        o.confine = Confining::on;
+    else if (value == "off")
+        o.confine = Confining::off;
+    else
+        bad_value(value, "one of auto, on, off");
+}
+
+SizeLimit size_limit(const std::string& value) {
+    constexpr const char* wanted =
+        "auto, none or a size such as 512M or 1.5G, from 1 byte to 1024T";
+    constexpr double most = 1024.0 * 1024 * 1024 * 1024 * 1024;
+    if (value == "auto") return {};
+    if (value == "none") return {false, {}};
+    constexpr std::string_view units = "KMGT";
+    std::size_t used = 0;
+    double bytes = 0;
+    try {
+        bytes = std::stod(value, &used);
+    } catch (const std::exception&) {
+        bad_value(value, wanted);
+    }
+    if (used < value.size()) {
+        const auto unit =
+            units.find(static_cast<char>(std::toupper(static_cast<unsigned char>(value[used]))));
+        if (unit == std::string_view::npos || used + 1 != value.size()) bad_value(value, wanted);
+        bytes *= std::pow(1024.0, static_cast<double>(unit + 1));
+    }
+    if (!(bytes >= 1 && bytes <= most)) bad_value(value, wanted);
+    return {false, static_cast<std::uint64_t>(bytes)};
+}
+
+void require_passable(const std::vector<std::string>& povray_arguments) {
+    for (const std::string& argument : povray_arguments) {
+        if (argument.empty()) throw Failure(Exit::usage, "one of POV-Ray's arguments is empty");
+        const auto control = std::ranges::find_if(
+            argument, [](unsigned char c) { return (c < 0x20 && c != '\t') || c == 0x7f; });
+        if (control == argument.end()) continue;
+        std::string shown = printable(argument);
+        std::ranges::replace(shown, '\n', '?');
+        const char* what =
+            *control == '\n' || *control == '\r' ? "line break" : "control character";
+        throw Failure(Exit::usage, fmt::format("there is a {} in the argument '{}': POV-Ray is not "
+                                               "given such names; rename the file",
+                                               what, shown));
+    }
 }
 
 }  // namespace mpipov

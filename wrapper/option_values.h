@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mpipov {
 
@@ -19,5 +20,12 @@ void set_radiosity(Options& options, const std::string& value);
 void set_schedule(Options& options, const std::string& value);
 void set_progress(Options& options, const std::string& value);
 void set_timeout(Options& options, const std::string& value);
+void set_confine(Options& options, const std::string& value);
+// "auto", "none" or bytes: 512M, 1.5G (powers of 1024).
+SizeLimit size_limit(const std::string& value);
+
+// POV-Ray's arguments are passed on literally, whatever their encoding, but for what nobody names a
+// file by: none is empty, and none has a control character other than a tab.
+void require_passable(const std::vector<std::string>& povray_arguments);
 
 }  // namespace mpipov

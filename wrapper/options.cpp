@@ -26,11 +26,13 @@ struct Row {
     const char* text;
     const char* preset;
     void (*apply)(Options&, const std::string& value);
+    bool repeats = false;  // may be given several times
 };
 
 constexpr const char* cutting = "Cutting the image up";
 constexpr const char* sharing = "Sharing the work";
 constexpr const char* files = "Files";
+constexpr const char* keeping = "What a scene may do";
 constexpr const char* faults = "When something goes wrong";
 constexpr const char* saying = "What is said";
 
@@ -86,6 +88,25 @@ constexpr std::array rows{
         "beside the image", [](Options& o, const std::string& v) { o.work_dir = v; }},
     Row{files, "povray", "PATH", "which POV-Ray to run", "povray",
         [](Options& o, const std::string& v) { o.povray = v; }},
+    Row{keeping, "allow-read", "DIR",
+        "a folder (or file) that the scene may read, besides its own folder, the one of the run, "
+        "those of +L and POV-Ray's own; may be given several times; / allows all",
+        nullptr, [](Options& o, const std::string& v) { o.allow_read.emplace_back(v); }, true},
+    Row{keeping, "allow-write", "DIR",
+        "a folder that the scene may read and write (#fopen), besides one that is removed after "
+        "each launch; may be given several times",
+        nullptr, [](Options& o, const std::string& v) { o.allow_write.emplace_back(v); }, true},
+    Row{keeping, "confine", "HOW",
+        "auto: keep POV-Ray to those folders where the kernel can (Landlock); on: or do not start; "
+        "off: do not",
+        "auto", set_confine},
+    Row{keeping, "memory-limit", "SIZE",
+        "memory that a launch may take: 512M, 2G, none; auto: its threads' share of the host's",
+        "auto", [](Options& o, const std::string& v) { o.memory_limit = size_limit(v); }},
+    Row{keeping, "disk-limit", "SIZE",
+        "what a launch may write: 512M, 2G, none; auto: 1G and what the image takes, but no more "
+        "than half of what is free",
+        "auto", [](Options& o, const std::string& v) { o.disk_limit = size_limit(v); }},
     Row{faults, "resume", nullptr,
         "go on from what an interrupted run left in its work folder, unless the scene, a file that "
         "it names or a setting changed",
@@ -163,7 +184,7 @@ void add_rows(CLI::App& app, Options& options) {
                                         flag, [apply](std::int64_t) { apply(""); }, row.text)
                                   : app.add_option_function<std::string>(flag, apply, row.text);
         option->group(row.group);
-        if (row.value != nullptr) option->type_name(row.value);
+        if (row.value != nullptr) option->type_name(row.value)->trigger_on_parse(row.repeats);
         if (row.preset != nullptr) option->default_str(row.preset);
     }
 }
@@ -198,6 +219,7 @@ Options parse_options(const std::vector<std::string>& arguments) {
     } catch (const CLI::ParseError& error) {
         throw Failure(Exit::usage, error.what());
     }
+    require_passable(options.povray_arguments);
     return options;
 }
 

@@ -5,6 +5,7 @@
 #include "schedule.h"
 #include "section.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,6 +15,14 @@
 namespace mpipov {
 
 enum class ProgressStyle { automatic, plain, none };
+
+// Where a kernel cannot keep POV-Ray from files: automatic goes on, on refuses.
+enum class Confining { automatic, on, off };
+
+struct SizeLimit {
+    bool automatic = true;
+    std::optional<std::uint64_t> bytes;  // where not automatic; none: no limit
+};
 
 struct Options {
     Policy schedule = Policy::dynamic;
@@ -34,7 +43,10 @@ struct Options {
     int retries = 2;
     bool dry_run = false;
     ProgressStyle progress = ProgressStyle::automatic;
-    std::filesystem::path record;  // empty: run.json beside the output
+    Confining confine = Confining::automatic;
+    std::vector<std::filesystem::path> allow_read, allow_write;
+    SizeLimit memory_limit, disk_limit;  // of a launch
+    std::filesystem::path record;        // empty: run.json beside the output
     std::string povray = "povray";
 
     bool help = false, version = false, manual = false;

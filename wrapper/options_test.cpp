@@ -21,6 +21,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::ThrowsMessage;
 
 struct Case {
     const char* name;
@@ -48,6 +49,17 @@ std::vector<Case> cases() {
         {"record", "r.json", [](const Options& o) { return o.record == "r.json"; }},
         {"work-dir", "w", [](const Options& o) { return o.work_dir == "w"; }},
         {"povray", "/opt/povray", [](const Options& o) { return o.povray == "/opt/povray"; }},
+        {"allow-read", "a b",
+         [](const Options& o) {
+             return o.allow_read == std::vector<std::filesystem::path>{"a b"};
+         }},
+        {"allow-write", "w",
+         [](const Options& o) { return o.allow_write == std::vector<std::filesystem::path>{"w"}; }},
+        {"confine", "on", [](const Options& o) { return o.confine == Confining::on; }},
+        {"memory-limit", "512M",
+         [](const Options& o) { return o.memory_limit.bytes == 512U << 20U; }},
+        {"disk-limit", "none",
+         [](const Options& o) { return !o.disk_limit.automatic && !o.disk_limit.bytes; }},
         {"resume", nullptr, [](const Options& o) { return o.resume; }},
         {"timeout", "2.5", [](const Options& o) { return o.timeout_seconds == 2.5; }},
         {"retries", "0", [](const Options& o) { return o.retries == 0; }},
@@ -192,6 +204,48 @@ TEST(Options, ABadValueNamesItsOption) {
             EXPECT_THAT(usage_error({"scene.pov", argument}),
                         HasSubstr(argument.substr(0, argument.find('='))));
         }
+}
+
+TEST(Options, FoldersMayBeAllowedSeveralTimes) {
+    const Options options = parse_options({"--allow-read", "a", "scene.pov", "--allow-read=b"});
+    EXPECT_THAT(options.allow_read, ElementsAre("a", "b"));
+    EXPECT_THAT(options.povray_arguments, ElementsAre("scene.pov"));
+}
+
+TEST(Options, SizesHaveUnits) {
+    const auto bytes = [](const std::string& value) {
+        return parse_options({"--disk-limit", value}).disk_limit.bytes.value_or(0);
+    };
+    EXPECT_EQ(bytes("1000"), 1000U);
+    EXPECT_EQ(bytes("1.5k"), 1536U);
+    EXPECT_EQ(bytes("2G"), std::uint64_t{2} << 30);
+    EXPECT_TRUE(parse_options({"--disk-limit", "auto"}).disk_limit.automatic);
+    for (const char* bad : {"", "G", "1X", "1GB", "-1", "0", "nan", "inf", "1e30", "9999999T"})
+        EXPECT_THAT(
+            [&] {
+                parse_options({"--disk-limit", bad});
+            },
+            ThrowsMessage<Failure>(HasSubstr("disk-limit")))
+            << bad;
+}
+
+TEST(Options, NamesOfFilesArePassedOnLiterallyOrRefused) {
+    const std::vector<std::string> odd{"sch\xc3\xb6n.pov", "sch\xf6n.pov", "a\tb.pov", "./--x.pov",
+                                       "+O\"my picture.png\""};
+    EXPECT_EQ(parse_options(odd).povray_arguments, odd);
+    EXPECT_THAT(parse_options({"--", "--x.pov"}).povray_arguments, ElementsAre("--x.pov"));
+    for (const char* bad : {"two\nlines.pov", "a\rb.pov", "bell\a.pov", "a\x7f.pov"})
+        EXPECT_THAT(
+            [&] {
+                parse_options({"scene.pov", bad});
+            },
+            ThrowsMessage<Failure>(HasSubstr("argument '")))
+            << bad;
+    EXPECT_THAT(
+        [] {
+            parse_options({"scene.pov", ""});
+        },
+        ThrowsMessage<Failure>(HasSubstr("empty")));
 }
 
 TEST(Options, AMissingValueNamesItsOption) {

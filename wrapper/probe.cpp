@@ -124,10 +124,12 @@ std::string check_resolved(const ProbeLaunches& launches, const ProbeRequest& re
     if (!launches.resolved() && is_option_error(text))  // POV-Ray does not say which one it is
         throw Failure(Exit::usage, fmt::format("POV-Ray: {}; it was given: {}", parse_error(text),
                                                fmt::join(request.user_arguments, " ")));
+    if (!launches.started() && !request.confinement.way_out(text).empty())
+        throw Failure(Exit::scene, describe_failure(text, request.confinement));
     std::string version = checked_version(request.povray, !launches.started(), text);
     if (!launches.resolved()) {
-        const LaunchFailure failure = blame_full_disk(
-            {fmt::format("POV-Ray: {}", parse_error(text))}, request.scratch, frame_bytes(0, 0));
+        const LaunchFailure failure = blame_full_disk({describe_failure(text, request.confinement)},
+                                                      {request.scratch, frame_bytes(0, 0)});
         throw Failure(failure.code, failure.why);
     }
     return version;

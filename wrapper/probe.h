@@ -11,6 +11,7 @@
 // A scene that cannot be rendered small is asked again with the middle of its picture in full size.
 #pragma once
 
+#include "confinement.h"
 #include "probe_result.h"
 #include "stitch.h"
 
@@ -26,10 +27,11 @@ struct ProbeRequest {
     std::string povray = "povray";
     std::vector<std::string> user_arguments;  // quoted as POV-Ray wants them
     std::filesystem::path scratch;            // an empty folder
-    std::optional<double> timeout_seconds;
+    std::optional<double> timeout_seconds;    // of a launch; see small_timeout()
     // Called once where radiosity shows, well before the probe is over: the pixels depend on the
     // order of rendering then.
     std::function<void()> at_radiosity = {};
+    Confinement confinement = {};
 };
 
 struct Probe {

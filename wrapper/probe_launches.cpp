@@ -22,6 +22,7 @@ namespace mpipov {
 namespace {
 
 constexpr const char* image_name = "probe";
+constexpr const char* resolve_name = "resolve";
 constexpr const char* stop_text = "mpipov has seen what it needs";
 // The small render's longest side: large enough to meet what is in the picture, small enough to
 // cost about half a percent of it.
@@ -115,12 +116,25 @@ std::filesystem::path small_image(const std::filesystem::path& folder) {
     return folder / image_name;
 }
 
+double small_timeout(const ProbeRequest& request) {
+    constexpr double seconds = 3600;
+    return request.timeout_seconds.value_or(seconds);
+}
+
+ChildRequest small_request(const ProbeRequest& request, const std::filesystem::path& folder,
+                           std::vector<std::string> argv, std::optional<std::uint64_t> pixels) {
+    LaunchNeeds needs{std::move(argv), folder, small_timeout(request)};
+    needs.pixels = pixels;
+    return request.confinement.request(std::move(needs));
+}
+
 ProbeLaunches::ProbeLaunches(const ProbeRequest& request) : request_(request) {
-    std::filesystem::create_directories(request.scratch);
-    const std::filesystem::path header = request.scratch / "stop.inc";
+    const std::filesystem::path folder = request.scratch / resolve_name;
+    std::filesystem::create_directories(folder);
+    const std::filesystem::path header = folder / "stop.inc";
     std::ofstream(header) << "#error \"" << stop_text << "\"\n";
-    start("resolve", {fmt::format("+HI\"{}\"", header.string()),
-                      fmt::format("+GI\"{}\"", settings_file().string())});
+    start(resolve_name, {fmt::format("+HI\"{}\"", header.string()),
+                         fmt::format("+GI\"{}\"", settings_file().string())});
 }
 
 void ProbeLaunches::render(const ProbeView& view) {
@@ -128,13 +142,15 @@ void ProbeLaunches::render(const ProbeView& view) {
         earlier_cpu_seconds_ += launches_[i].child.cpu_seconds();
     launches_.erase(std::next(launches_.begin()), launches_.end());
     const int number = ++views_;
+    pixels_ =
+        static_cast<std::uint64_t>(view.size.width) * static_cast<std::uint64_t>(view.size.height);
     start(fmt::format("render{}", number), view_arguments(view, false));
     // Antialiasing of method 1 depends on where blocks end, and has no random numbers of its own.
     const std::vector<std::string> arguments = view_arguments(view, true);
-    cache_ = request_.scratch / fmt::format("radiosity{}", number);
+    const std::string first = fmt::format("render{}-order0", number);
+    cache_ = request_.scratch / first / "radiosity";
     // Not what a user's own cache holds: these samples are a coarse pass for sections to share.
-    start(fmt::format("render{}-order0", number), arguments,
-          {"-RFI", "+RFO", fmt::format("+RF\"{}\"", cache_.string())});
+    start(first, arguments, {"-RFI", "+RFO", fmt::format("+RF\"{}\"", cache_.string())});
     for (const Order& order : other_orders) {
         std::vector<std::string> other_order = arguments;
         other_order.push_back(fmt::format("+BS{}", order.block));
@@ -192,7 +208,7 @@ bool ProbeLaunches::started() const {
 }
 
 std::filesystem::path ProbeLaunches::settings_file() const {
-    return request_.scratch / "settings.ini";
+    return request_.scratch / resolve_name / "settings.ini";
 }
 
 bool ProbeLaunches::refused_by_the_scene() const {
@@ -229,15 +245,15 @@ void ProbeLaunches::start(const std::string& name, const std::vector<std::string
     argv.insert(argv.end(), last.begin(), last.end());
     // The first launch is asked for the user's own output file; it never comes to write one.
     if (!launches_.empty()) argv.push_back(fmt::format("+O\"{}\"", small_image(folder).string()));
-    launches_.push_back(
-        ShortLaunch::start(std::move(argv), small_image(folder), request_.timeout_seconds));
+    launches_.push_back(ShortLaunch::start(
+        small_request(request_, folder, std::move(argv), pixels_), small_image(folder)));
     ++started_;
 }
 
-std::filesystem::path ProbeLaunches::image_of(const ShortLaunch& launch) {
+std::filesystem::path ProbeLaunches::image_of(const ShortLaunch& launch) const {
     if (!launch.succeeded()) {
-        LaunchFailure failure =
-            launch_failure(launch.child, launch.base.parent_path(), frame_bytes(0, 0));
+        const LaunchFailure failure = launch_failure(
+            launch.child, request_.confinement, {launch.base.parent_path(), frame_bytes(0, 0)});
         throw Failure(failure.code, failure.why);
     }
     return find_image(launch.base);

@@ -4,6 +4,7 @@
 #include "povray_command.h"
 #include "short_launch.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -36,6 +37,14 @@ std::vector<std::string> view_arguments(const ProbeView& view, bool plain);
 std::vector<std::string> small_command(const ProbeRequest& request,
                                        const std::vector<std::string>& more);
 
+// The seconds after which a small render counts as hung, where the user did not say: a scene may
+// take long to be parsed.
+double small_timeout(const ProbeRequest& request);
+
+// A small launch in `folder`, confined; `pixels` of the frame that it writes, see LaunchNeeds.
+ChildRequest small_request(const ProbeRequest& request, const std::filesystem::path& folder,
+                           std::vector<std::string> argv, std::optional<std::uint64_t> pixels);
+
 // The file without its extension that the launch in this folder writes.
 std::filesystem::path small_image(const std::filesystem::path& folder);
 
@@ -54,7 +63,7 @@ class ProbeLaunches {
     std::string_view resolve_output() const { return launches_.front().child.output(); }
     bool resolved() const;
     bool started() const;  // POV-Ray could be started at all, or has not ended yet
-    std::filesystem::path settings_file() const;
+    std::filesystem::path settings_file() const;  // in the folder of the launch that resolves
 
     // Of the render in POV-Ray's own order.
     bool rendered() const { return launches_.at(1).succeeded(); }
@@ -81,11 +90,13 @@ class ProbeLaunches {
                const std::vector<std::string>& last = {});
     bool takes_radiosity_samples() const;
     void end_other_orders();
-    static std::filesystem::path image_of(const ShortLaunch& launch);
+    std::filesystem::path image_of(const ShortLaunch& launch) const;
 
     const ProbeRequest& request_;
     std::vector<ShortLaunch> launches_;
     std::filesystem::path cache_;  // of the launch in the first order
+    // Of the frame that its renders write; that of the launch that resolves is the user's.
+    std::optional<std::uint64_t> pixels_ = {};
     int started_ = 0, views_ = 0;
     bool radiosity_told_ = false;
     double earlier_cpu_seconds_ = 0;

@@ -1,5 +1,7 @@
 #include "progress.h"
 
+#include "printable.h"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -99,7 +101,7 @@ void ProgressView::finish(int sections, double seconds) {
 
 void ProgressView::say(const std::string& line) {
     clear();
-    print(line + '\n');
+    print(printable(line) + '\n');
 }
 
 void ProgressView::inform(const std::string& line) {

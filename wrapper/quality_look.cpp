@@ -39,15 +39,18 @@ long long pixels_of(const ProbeView& view) {
 
 class QualityLaunches {
   public:
-    explicit QualityLaunches(const ProbeRequest& request) : request_(request) {}
+    QualityLaunches(const ProbeRequest& request, const ProbeView& view)
+        : request_(request),
+          pixels_(static_cast<std::uint64_t>(view.size.width) *
+                  static_cast<std::uint64_t>(view.size.height)) {}
 
     void start(const std::string& name, std::vector<std::string> more) {
         const std::filesystem::path folder = request_.scratch / name;
         std::filesystem::create_directories(folder);
         const std::filesystem::path image = small_image(folder);
         more.push_back(fmt::format("+O\"{}\"", image.string()));
-        launches_.push_back(
-            ShortLaunch::start(small_command(request_, more), image, request_.timeout_seconds));
+        launches_.push_back(ShortLaunch::start(
+            small_request(request_, folder, small_command(request_, more), pixels_), image));
     }
 
     void wait() { wait_for_all(launches_); }
@@ -68,6 +71,7 @@ class QualityLaunches {
 
   private:
     const ProbeRequest& request_;
+    std::uint64_t pixels_;
     std::vector<ShortLaunch> launches_;
 };
 
@@ -116,7 +120,7 @@ LookedAt look_at_qualities(const ProbeRequest& request, const ProbeResult& probe
     const bool larger = pixels_of(view) > probe.probe_pixels;
     const std::vector<int> levels = levels_below(probe.quality);
     const std::vector<std::string> plain = view_arguments(view, true);
-    QualityLaunches launches(request);
+    QualityLaunches launches(request, view);
     for (const int level : levels) {
         std::vector<std::string> arguments = plain;
         arguments.push_back(fmt::format("+Q{}", level));

@@ -72,8 +72,10 @@ MetRanks meet_ranks(const JobSetup& setup, Transport& transport, const std::stri
                                       "could differ",
                                       host, head.at("povray").get<std::string>(), povray));
         const auto peer = static_cast<std::size_t>(message->peer);
-        met.ranks.at(peer) = {message->peer, host, head.at("slots"), 0, 0};
-        met.pools.at(peer) = head.at("pool");
+        constexpr int most_cores = 1 << 16;
+        met.ranks.at(peer) = {message->peer, host, int_from_json(head.at("slots"), 0, most_cores),
+                              0, 0};
+        met.pools.at(peer) = int_from_json(head.at("pool"), 0, most_cores);
     }
     if (setup.options.dedicated_coordinator) met.ranks[0].slots = 0;
     return met;
@@ -112,16 +114,13 @@ std::optional<Journal> begin_journal(const Options& options, const OutputPlace& 
 }
 
 // What it costs to know is part of the run.
-std::optional<CostMap> find_costs(const JobSetup& setup, const std::vector<std::string>& arguments,
-                                  const Probe& probe, const OutputPlace& place,
-                                  const std::filesystem::path& scratch, RunRecord& record) {
-    const Options& options = setup.options;
+std::optional<CostMap> find_costs(const ProbeRequest& request, const Probe& probe,
+                                  const OutputPlace& place, RunRecord& record) {
     if (auto costs = costs_of_earlier_run(place.record(), record.scene_sha1, probe.result))
         return costs;
     if (make_cost_model(probe.result).render < least_render_to_look_at) return {};
     if (!probe.result.seen_whole) return {};  // its parts refuse to be small too
-    PartCosts parts = costs_of_small_parts(
-        {options.povray, arguments, scratch, options.timeout_seconds}, probe.result);
+    PartCosts parts = costs_of_small_parts(request, probe.result);
     record.totals.cpu_seconds += parts.cpu_seconds;
     record.totals.launches += parts.launches;
     return std::move(parts.costs);
@@ -141,20 +140,24 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
 
     const std::vector<std::string> arguments = quote_arguments(options.povray_arguments);
     const ScratchFolder scratch("probe");
-    std::optional<EarlyRender> early =
-        start_early(setup, transport.size(), arguments, worker.scratch() / "early");
+    std::optional<EarlyRender> early = start_early(
+        setup, transport.size(), arguments, worker.scratch() / "early", worker.confinement());
     const auto stop_early = [&] {
         if (!early) return;
         record.totals.cpu_seconds += early->launch.child.cpu_seconds();
         ++record.totals.launches;
         early.reset();
     };
+    const auto look = [&](const char* folder) {
+        return ProbeRequest{options.povray,          arguments, scratch.path() / folder,
+                            options.timeout_seconds, {},        worker.confinement()};
+    };
     std::optional<LoadingImageLibrary> loading;
     if (!options.dry_run) loading.emplace();
-    Probe probe =
-        run_probe({options.povray, arguments, scratch.path() / "probe", options.timeout_seconds,
-                   // It would take the probe's cores, and radiosity is hardly ever one launch.
-                   stop_early});
+    ProbeRequest probing = look("probe");
+    // It would take the probe's cores, and radiosity is hardly ever one launch.
+    probing.at_radiosity = stop_early;
+    Probe probe = run_probe(probing);
     const std::string& povray = probe.povray;
     record.versions["povray"] = povray;
     record.totals.cpu_seconds += probe.cpu_seconds;
@@ -175,11 +178,10 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     if (options.schedule == Policy::cost && !plan.takes_early && !options.resume) {
         stop_early();
         request.early_threads = 0;
-        request.costs = find_costs(setup, arguments, probe, place, scratch.path(), record);
+        request.costs = find_costs(look("parts"), probe, place, record);
         plan = checked_plan(request, probe.result);
     }
-    look_closer(setup, arguments, scratch.path() / "look", probe.result, plan.record,
-                record.totals);
+    look_closer(setup, look("look"), probe.result, plan.record, record.totals);
     if (early && plan.takes_early) {
         worker.adopt(0, std::move(early->launch));
         early.reset();
@@ -202,6 +204,8 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
         ProgressView progress(options.progress);
         for (const std::string& warning : probe.warnings) progress.say("POV-Ray: " + warning);
         for (const std::string& note : plan.notes) progress.say("mpipov: " + note);
+        if (const std::string note = worker.confinement().note(); !note.empty())
+            progress.inform("mpipov: " + note);
         CoordinatorSetup job = coordinator_setup(options, arguments, probe, plan, met.ranks);
         if (!plan.waves.empty())
             job.cache = gather_radiosity(gather_setup(options, job, plan, probe),

@@ -75,7 +75,8 @@ void take_grid(Plan& plan, const Journal& journal, const Options& options) {
 }
 
 int take_finished_sections(Coordinator& coordinator, const Journal& journal) {
-    const auto finished = journal.finished();
+    const auto finished =
+        journal.finished([&coordinator](int section) { return coordinator.bytes_of(section); });
     for (const Journal::Finished& section : finished)
         coordinator.resume(section.section, section.about, journal.read(section.section));
     return static_cast<int>(finished.size());

@@ -1,7 +1,6 @@
 #include "short_launch.h"
 
 #include "interrupt.h"
-#include "povray_command.h"
 
 #include <poll.h>
 
@@ -9,12 +8,7 @@
 
 namespace mpipov {
 
-ShortLaunch ShortLaunch::start(std::vector<std::string> argv, std::filesystem::path base,
-                               std::optional<double> timeout_seconds) {
-    ChildRequest request;
-    request.argv = std::move(argv);
-    request.environment = temporary_files_in(base.parent_path());
-    request.timeout_seconds = timeout_seconds;
+ShortLaunch ShortLaunch::start(const ChildRequest& request, std::filesystem::path base) {
     return {std::move(base), ChildProcess::start(request)};
 }
 

@@ -13,13 +13,12 @@
 namespace mpipov {
 
 struct ShortLaunch {
-    std::filesystem::path base;  // of its image, as find_image(); its folder takes temporary files
+    std::filesystem::path base;  // of its image, as find_image(); in the launch's folder
     ChildProcess child;
     EndOfWork end = {};
     bool enough = false;  // has done its work or was stopped by us; it may not have ended
 
-    static ShortLaunch start(std::vector<std::string> argv, std::filesystem::path base,
-                             std::optional<double> timeout_seconds);
+    static ShortLaunch start(const ChildRequest& request, std::filesystem::path base);
 
     // Looks after it; whether it is over.
     bool poll();

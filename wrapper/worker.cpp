@@ -34,8 +34,8 @@ std::filesystem::path find_image(const std::filesystem::path& base) {
     throw std::runtime_error("POV-Ray wrote no image");
 }
 
-Worker::Worker(Transport& transport, std::filesystem::path scratch)
-    : transport_(transport), scratch_(std::move(scratch)) {}
+Worker::Worker(Transport& transport, std::filesystem::path scratch, Confinement confinement)
+    : transport_(transport), scratch_(std::move(scratch)), confinement_(std::move(confinement)) {}
 
 void Worker::handle(const Message& message) {
     switch (message.kind) {
@@ -60,12 +60,16 @@ void Worker::handle(const Message& message) {
 }
 
 void Worker::take_job(const nlohmann::json& head) {
+    constexpr int most_pixels = 1 << 30, most_threads = 1 << 16;
+    image_ = {int_from_json(head.at("width"), 1, most_pixels),
+              int_from_json(head.at("height"), 1, most_pixels)};
+    int_from_json(head.at("threads"), 1, most_threads);
+    int_from_json(head.at("block"), 0, most_pixels);
     cache_.begin(scratch_ / "radiosity.cache", head.at("cache_bytes"));
     ++jobs_;
     gathers_ = head.at("gathers");
     job_ = {head.at("povray"),  head.at("user_arguments"), head.at("format_arguments"),
             head.at("threads"), head.at("block"),          cache_.file()};
-    image_ = {head.at("width"), head.at("height")};
     timeout_seconds_.reset();
     if (!head.at("timeout_seconds").is_null())
         timeout_seconds_ = head.at("timeout_seconds").get<double>();
@@ -77,6 +81,9 @@ void Worker::start(const Message& message) {
     Section section{message.head.at("section"), rect_from_json(message.head.at("keep")),
                     rect_from_json(message.head.at("render"))};
     const int attempt = message.head.at("attempt");
+    if (section.render.empty() ||
+        intersect(section.render, {0, 0, image_.width, image_.height}) != section.render)
+        throw std::runtime_error("a section was assigned that does not lie in the image");
     try {
         PreparedLaunch prepared = launch(section, attempt);
         launches_.push_back(
@@ -103,20 +110,24 @@ PreparedLaunch Worker::launch(const Section& section, int attempt) {
     }
     // Launches of an earlier job may still be leaving.
     LaunchFolder folder(scratch_ / fmt::format("{}-{}-{}", jobs_, section.id, attempt));
-    ChildRequest request;
+    LaunchNeeds needs;
+    needs.folder = folder.path();
+    needs.timeout_seconds = timeout_seconds_;
+    needs.threads = job_.threads;
+    needs.pixels =
+        static_cast<std::uint64_t>(image_.width) * static_cast<std::uint64_t>(image_.height);
     if (gathers_) {
         const std::filesystem::path cache = folder.path() / section_cache_name;
         const bool reads = !cache_.file().empty();
         // POV-Ray writes behind what it has read.
         if (reads) std::filesystem::copy_file(cache_.file(), cache);
-        request.argv = gather_command(job_, section.render, image_, cache, reads);
+        needs.argv = gather_command(job_, section.render, image_, cache, reads);
     } else {
-        request.argv =
+        needs.argv =
             section_command(job_, section.render, image_, folder.path() / section_image_name);
     }
-    request.environment = temporary_files_in(folder.path());
-    request.timeout_seconds = timeout_seconds_;
-    return {std::move(folder), ChildProcess::start(request)};
+    if (!job_.radiosity_cache.empty()) needs.reads.push_back(job_.radiosity_cache);
+    return {std::move(folder), ChildProcess::start(confinement_.request(std::move(needs)))};
 }
 
 void Worker::adopt(int section, PreparedLaunch launch) {
@@ -161,15 +172,17 @@ Worker::State Worker::step(Launch& launch) {
     }
 }
 
+LaunchPlace Worker::place_of(const Launch& launch) const {
+    return {launch.folder.path(), frame_bytes(image_.width, image_.height)};
+}
+
 // Where POV-Ray could not write its file it has not said so yet, and knows better why.
 Worker::State Worker::end_broken(Launch& launch) {
     if (!launch.child.poll()) return State::idle;
     // POV-Ray may also end well though its file had no room.
     send_failure(launch, launch.child.result().exit_code == 0
-                             ? blame_full_disk({launch.broken, launch.code}, launch.folder.path(),
-                                               frame_bytes(image_.width, image_.height))
-                             : launch_failure(launch.child, launch.folder.path(),
-                                              frame_bytes(image_.width, image_.height)));
+                             ? blame_full_disk({launch.broken, launch.code}, place_of(launch))
+                             : launch_failure(launch.child, confinement_, place_of(launch)));
     return State::over;
 }
 
@@ -193,8 +206,7 @@ Worker::State Worker::end_cancelled(Launch& launch) {
 
 Worker::State Worker::begin_reading(Launch& launch) {
     if (launch.child.ended() && launch.child.result().exit_code != 0) {
-        send_failure(launch, launch_failure(launch.child, launch.folder.path(),
-                                            frame_bytes(image_.width, image_.height)));
+        send_failure(launch, launch_failure(launch.child, confinement_, place_of(launch)));
         return State::over;
     }
     if (gathers_)

@@ -5,6 +5,7 @@
 
 #include "cache_stream.h"
 #include "child_process.h"
+#include "confinement.h"
 #include "end_of_work.h"
 #include "failure.h"
 #include "image_file.h"
@@ -26,12 +27,13 @@ namespace mpipov {
 
 class Worker {
   public:
-    // Section files lie in `scratch` while they are needed.
-    Worker(Transport& transport, std::filesystem::path scratch);
+    // Section files lie in `scratch` while they are needed. `confinement`: of every launch.
+    Worker(Transport& transport, std::filesystem::path scratch, Confinement confinement = {});
 
     void handle(const Message& message);
 
     const std::filesystem::path& scratch() const { return scratch_; }
+    const Confinement& confinement() const { return confinement_; }
 
     // A launch that is under way already: the first attempt at `section` takes it, and its time
     // runs from then on.
@@ -80,11 +82,13 @@ class Worker {
     State send_more(Launch& launch);
     State send_done(const Launch& launch);
     void send_progress(Launch& launch);
+    LaunchPlace place_of(const Launch& launch) const;
     void send_failure(const Launch& launch, const LaunchFailure& failure);
     nlohmann::json head_of(const Launch& launch) const;
 
     Transport& transport_;
     std::filesystem::path scratch_;
+    Confinement confinement_;
     JobCommand job_;
     ImageSize image_;
     int jobs_ = 0;  // so far

@@ -170,6 +170,22 @@ TEST_F(WorkerTest, DoesNotWaitForAPovrayThatHasDoneItsWork) {
     worker_.stop();
 }
 
+TEST_F(WorkerTest, RefusesSizesThatCannotBe) {
+    for (const char* key : {"width", "height", "threads"})
+        for (const nlohmann::json& bad : {nlohmann::json(0), nlohmann::json(-5),
+                                          nlohmann::json(1LL << 40), nlohmann::json(1e300)}) {
+            nlohmann::json head = job_head(image);
+            head[key] = bad;
+            EXPECT_THROW(worker_.handle({MessageKind::job, 1, head, {}}), std::runtime_error)
+                << key << ' ' << bad;
+        }
+    send_job();
+    for (const Rect& bad : {Rect{0, 0, 65, 48}, Rect{0, 0, 64, 1 << 29}, Rect{-1, 0, 64, 48},
+                            Rect{8, 0, 8, 48}, Rect{9, 0, 8, 48}})
+        EXPECT_THROW(assign(0, bad), std::runtime_error);
+    EXPECT_EQ(files_left(), 0);
+}
+
 TEST_F(WorkerTest, PovraysOwnWordsComeBeforeOurs) {
     const Environment full_disk = faults("late-error");
     send_job();

@@ -1,0 +1,258 @@
+#include "confinement.h"
+
+#include "failure.h"
+#include "povray_command.h"
+#include "program_files.h"
+#include "scene_folders.h"
+
+#include <fmt/format.h>
+#include <pwd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <regex>
+#include <system_error>
+
+namespace mpipov {
+namespace {
+
+namespace fs = std::filesystem;
+
+// POV-Ray's own restriction of files does nothing in Debian's build (docs/povray.md); that of
+// commands does.
+constexpr const char* configuration = R"([File I/O Security]
+restricted
+
+[Shellout Security]
+forbidden
+
+[Permitted Paths]
+read = %INSTALLDIR%/include
+read+write = .
+)";
+constexpr const char* version_folder = ".povray/3.7";
+
+// What remains of a machine for everything else.
+constexpr double memory_share = 0.8;
+// Below it POV-Ray could hardly render anything; Linux ends it first where that is too much.
+constexpr std::uint64_t least_memory_bytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t least_disk_bytes = std::uint64_t{1} << 30;
+// Of a frame: 20 in a temporary file, as many as 16 in an image, and the same for both where they
+// are written a second time.
+constexpr std::uint64_t disk_bytes_per_pixel = 72;
+
+fs::path home_of_user() {
+    const char* home = std::getenv("HOME");
+    if (home != nullptr && *home != '\0') return home;
+    const passwd* entry = ::getpwuid(::getuid());
+    return entry != nullptr && entry->pw_dir != nullptr ? entry->pw_dir : "";
+}
+
+// POV-Ray's default settings, in the order in which it looks for them; empty where it takes those
+// of the folder of the run or the system's, or none.
+fs::path settings_of_user(const fs::path& home) {
+    std::error_code error;
+    const char* named = std::getenv("POVINI");
+    if (named != nullptr && fs::is_regular_file(named, error)) return fs::absolute(named, error);
+    if (fs::exists("povray.ini", error)) return {};
+    if (home.empty()) return {};
+    const fs::path own = home / version_folder / "povray.ini";
+    if (fs::is_regular_file(own, error)) return own;
+    // The system's come before the older name of the user's.
+    for (const char* systems :
+         {"/etc/povray/3.7/povray.ini", "/usr/local/etc/povray/3.7/povray.ini"})
+        if (fs::exists(systems, error)) return {};
+    const fs::path older = home / ".povrayrc";
+    return fs::is_regular_file(older, error) ? older : fs::path();
+}
+
+fs::path write_configuration(const fs::path& own) {
+    const fs::path home = own / "home";
+    std::error_code error;
+    fs::create_directories(home / version_folder, error);
+    const fs::path file = home / version_folder / "povray.conf";
+    std::ofstream out(file);
+    out << configuration;
+    if (!out.flush())
+        throw Failure(Exit::file,
+                      fmt::format("cannot write '{}': {}", file.string(), std::strerror(errno)));
+    return home;
+}
+
+std::uint64_t number_in(const char* file) {
+    std::ifstream in(file);
+    std::string word;
+    in >> word;
+    std::uint64_t number = 0;
+    const auto end = std::from_chars(word.data(), word.data() + word.size(), number);
+    return end.ec == std::errc() && end.ptr == word.data() + word.size() ? number : 0;
+}
+
+// Whether `file` is `folder` or in it.
+bool lies_in(const fs::path& file, const fs::path& folder) {
+    std::error_code error;
+    const fs::path inside =
+        fs::weakly_canonical(file, error).lexically_relative(fs::weakly_canonical(folder, error));
+    return !inside.empty() && *inside.begin() != "..";
+}
+
+void require_present(const char* option, const std::vector<fs::path>& paths) {
+    std::error_code error;
+    for (const fs::path& path : paths)
+        if (!fs::exists(path, error))
+            throw Failure(Exit::usage,
+                          fmt::format("{} '{}': no such file or folder", option, path.string()));
+}
+
+// POV-Ray breaks lines anywhere and drops nothing.
+std::optional<std::string> name_after(std::string_view text, const char* pattern) {
+    std::string joined(text);
+    std::erase(joined, '\n');
+    std::smatch match;
+    if (!std::regex_search(joined, match, std::regex(pattern))) return {};
+    return match[1].str();
+}
+
+}  // namespace
+
+HostResources resources_of_host(int cores) {
+    const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
+    HostResources host{static_cast<std::uint64_t>(std::max(0L, pages)) *
+                           static_cast<std::uint64_t>(std::max(0L, page)),
+                       std::max(1, cores)};
+    // A container's or a job's; the number of no limit is larger than any memory.
+    for (const char* file :
+         {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
+        if (const std::uint64_t most = number_in(file); most > 0)
+            host.memory_bytes = std::min(host.memory_bytes, most);
+    return host;
+}
+
+Confinement::Confinement(const Options& options, const HostResources& host, const fs::path& own)
+    : on_(true), memory_(options.memory_limit), disk_(options.disk_limit), host_(host) {
+    const fs::path home = home_of_user();
+    const fs::path settings = settings_of_user(home);
+    environment_ = {{"HOME", write_configuration(own).string()}};
+    if (!settings.empty()) environment_.emplace_back("POVINI", settings.string());
+    off_ = options.confine == Confining::off;
+    if (off_) return;
+    if (!can_restrict_files()) {
+        if (options.confine == Confining::automatic) return;
+        throw Failure(Exit::usage,
+                      "--confine on: this kernel cannot keep a program from files (Landlock, from "
+                      "Linux 5.13 on)");
+    }
+    require_present("--allow-read", options.allow_read);
+    require_present("--allow-write", options.allow_write);
+    std::error_code error;
+    const fs::path run_folder = fs::current_path(error);
+    files_ = files_of_program(find_program(options.povray));
+    for (const fs::path& path :
+         scene_folders({options.povray_arguments, run_folder, home, settings}))
+        files_->read.push_back(path);
+    for (const fs::path& path : options.allow_read)
+        files_->read.push_back(fs::absolute(path, error));
+    for (const fs::path& path : options.allow_write)
+        files_->write.push_back(fs::absolute(path, error));
+    files_->read.push_back(own / "home");
+    searched_ = {run_folder};
+    for (const std::string& argument : options.povray_arguments)
+        for (const std::string& folder : library_paths_in(argument))
+            searched_.push_back(run_folder / folder);
+    writes_ = writes_of_scene(options.povray_arguments, {searched_.begin() + 1, searched_.end()});
+    // Where it may write there anyway it does so as POV-Ray alone.
+    for (const fs::path& folder : files_->write)
+        if (lies_in(run_folder, folder)) writes_.any = false;
+}
+
+std::string Confinement::note() const {
+    if (writes_.any)
+        return "the scene writes files, which are removed with its launches: --allow-write . keeps "
+               "them";
+    if (on_ && !files_ && !off_)
+        return "this kernel cannot keep a scene from your files (Landlock); --confine on refuses "
+               "to render then";
+    return {};
+}
+
+std::uint64_t Confinement::memory_limit(int threads) const {
+    if (!memory_.automatic) return memory_.bytes.value_or(0);
+    const double all = memory_share * static_cast<double>(host_.memory_bytes);
+    const double part = all * std::min(threads, host_.cores) / host_.cores;
+    return std::max(least_memory_bytes, static_cast<std::uint64_t>(part));
+}
+
+std::optional<std::uint64_t> Confinement::file_limit(const LaunchNeeds& needs) const {
+    if (!disk_.automatic) return disk_.bytes;
+    if (!needs.pixels) return {};
+    return least_disk_bytes + disk_bytes_per_pixel * *needs.pixels;
+}
+
+std::optional<std::uint64_t> Confinement::folder_limit(const LaunchNeeds& needs) const {
+    if (!disk_.automatic) return disk_.bytes;
+    std::error_code error;
+    const fs::space_info space = fs::space(needs.folder, error);
+    const std::uint64_t half = error ? least_disk_bytes : space.available / 2;
+    return std::min(half, file_limit(needs).value_or(half));
+}
+
+ChildRequest Confinement::request(LaunchNeeds needs) const {
+    ChildRequest request;
+    request.argv = std::move(needs.argv);
+    request.environment = temporary_files_in(needs.folder);
+    request.timeout_seconds = needs.timeout_seconds;
+    if (!on_) return request;
+    request.environment.insert(request.environment.end(), environment_.begin(), environment_.end());
+    if (const std::uint64_t bytes = memory_limit(needs.threads)) request.memory_limit_bytes = bytes;
+    request.file_size_limit_bytes = file_limit(needs);
+    if (const auto bytes = folder_limit(needs)) request.folder_limit = {needs.folder, *bytes};
+    if (!files_) return request;
+    request.files = files_;
+    request.files->write.push_back(needs.folder);
+    if (writes_.any) {
+        const fs::path& run_folder = searched_.front();
+        request.working_directory = needs.folder / "run";
+        make_writable_view(request.working_directory, run_folder, writes_.names);
+        // For names that lead out of it.
+        request.argv.push_back(fmt::format("+L\"{}\"", run_folder.string()));
+    }
+    request.files->read.insert(request.files->read.end(), needs.reads.begin(), needs.reads.end());
+    return request;
+}
+
+bool Confinement::may_read(const fs::path& file) const {
+    const auto in = [&](const fs::path& folder) { return lies_in(file, folder); };
+    return std::ranges::any_of(files_->read, in) || std::ranges::any_of(files_->write, in);
+}
+
+std::string Confinement::way_out(std::string_view error) const {
+    if (!on_) return {};
+    if (files_ && error.find("error while loading shared libraries") != std::string_view::npos)
+        return " (allow the folder of POV-Ray's libraries with --allow-read)";
+    if (error.find("bad_alloc") != std::string_view::npos)
+        return " (out of memory: allow a launch more with --memory-limit)";
+    if (!files_) return {};
+    if (const auto name = name_after(error, "Cannot open user file (.*) \\((?:write|append)\\)"))
+        return fmt::format(" (a scene may not write there: allow it with --allow-write '{}')",
+                           (searched_.front() / *name).lexically_normal().parent_path().string());
+    const auto name = name_after(error, "Cannot find file '([^']*)'");
+    if (!name) return {};
+    for (const fs::path& folder : searched_) {
+        const fs::path file = (folder / *name).lexically_normal();
+        std::error_code ignored;
+        if (!fs::exists(file, ignored) || may_read(file)) continue;
+        const fs::path real = fs::weakly_canonical(file, ignored);
+        return fmt::format(
+            " ('{}' is in a folder that a scene may not read: allow it with "
+            "--allow-read '{}')",
+            real.string(), real.parent_path().string());
+    }
+    return {};
+}
+
+}  // namespace mpipov

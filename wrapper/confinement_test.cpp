@@ -1,0 +1,175 @@
+#include "confinement.h"
+
+#include "failure.h"
+#include "scratch.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+namespace mpipov {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Optional;
+using testing::Pair;
+
+constexpr std::uint64_t mib = std::uint64_t{1} << 20, gib = mib << 10;
+
+class ConfinementTest : public testing::Test {
+  protected:
+    ConfinementTest() {
+        for (const char* folder : {"home", "work", "other", "own", "launch"})
+            fs::create_directory(at(folder));
+        std::ofstream(at("work/scene.pov")) << "sphere { 0, 1 }\n";
+        std::ofstream(at("other/tile.png")) << "x";
+        ::setenv("HOME", at("home").c_str(), 1);
+        ::unsetenv("POVINI");
+        fs::current_path(at("work"));
+        options_.povray_arguments = {"scene.pov"};
+    }
+    ~ConfinementTest() override {
+        fs::current_path(before_);
+        if (home_.empty())
+            ::unsetenv("HOME");
+        else
+            ::setenv("HOME", home_.c_str(), 1);
+    }
+
+    fs::path at(const std::string& name) const { return scratch_.path() / name; }
+    Confinement confinement() const { return {options_, {8 * gib, 4}, at("own")}; }
+    LaunchNeeds needs() const { return {{"povray", "scene.pov"}, at("launch")}; }
+
+    std::string home_ = std::getenv("HOME") != nullptr ? std::getenv("HOME") : "";
+    fs::path before_ = fs::current_path();
+    ScratchFolder scratch_{"confinement-test"};
+    Options options_;
+};
+
+TEST_F(ConfinementTest, GivesPovrayAHomeOfTheRuns) {
+    const ChildRequest request = confinement().request(needs());
+    EXPECT_THAT(request.environment, Contains(Pair("HOME", at("own/home").string())));
+    EXPECT_THAT(request.environment, Contains(Pair("POV_TEMP_DIR", at("launch").string())));
+    EXPECT_TRUE(fs::exists(at("own/home/.povray/3.7/povray.conf")));
+    EXPECT_EQ(request.argv, needs().argv);
+    EXPECT_TRUE(request.working_directory.empty());
+    EXPECT_EQ(confinement().note().empty(), can_restrict_files());
+}
+
+TEST_F(ConfinementTest, KeepsTheUsersOwnSettings) {
+    fs::create_directories(at("home/.povray/3.7"));
+    const fs::path settings = at("home/.povray/3.7/povray.ini");
+    std::ofstream(settings) << "Library_Path=" << at("other").string() << '\n';
+    const Confinement own = confinement();
+    EXPECT_THAT(own.request(needs()).environment, Contains(Pair("POVINI", settings.string())));
+    EXPECT_THAT(own.way_out("Cannot find file '" + at("other/tile.png").string() + "'"), IsEmpty())
+        << "it may be read, so that is not the cause";
+    std::ofstream(at("work/povray.ini")) << "+W320\n";
+    for (const auto& [name, value] : confinement().request(needs()).environment)
+        EXPECT_NE(name, "POVINI") << "POV-Ray takes that of the folder of the run";
+}
+
+TEST_F(ConfinementTest, AllowsWhatWasNamedAndTheLaunchsFolder) {
+    if (!can_restrict_files()) GTEST_SKIP() << "this kernel has no Landlock";
+    options_.allow_read = {"../other"};
+    options_.allow_write = {at("home")};
+    LaunchNeeds needs = this->needs();
+    needs.reads = {at("own/cache")};
+    const FileAccess files = confinement().request(needs).files.value();
+    EXPECT_THAT(files.read, Contains(at("work")));
+    EXPECT_THAT(files.read, Contains(at("own/cache")));
+    EXPECT_THAT(files.read, Contains(at("work") / "../other"));
+    EXPECT_THAT(files.write, Contains(at("launch")));
+    EXPECT_THAT(files.write, Contains(at("home")));
+}
+
+TEST_F(ConfinementTest, SaysWhatMayBeAllowed) {
+    if (!can_restrict_files()) GTEST_SKIP() << "this kernel has no Landlock";
+    const Confinement it = confinement();
+    EXPECT_THAT(it.way_out("Cannot find file '../other/tile.png', even"),
+                HasSubstr("--allow-read '" + at("other").string() + "'"));
+    EXPECT_THAT(it.way_out("Cannot find file\n '" + at("other").string() + "/ti\nle.png', even"),
+                HasSubstr("--allow-read"))
+        << "POV-Ray breaks lines";
+    EXPECT_THAT(it.way_out("Cannot find file '../other/none.png'"), IsEmpty());
+    EXPECT_THAT(it.way_out("Cannot find file 'none.png'"), IsEmpty());
+    EXPECT_THAT(it.way_out("Cannot open user file ../other/a.txt (write)."),
+                HasSubstr("--allow-write '" + at("other").string() + "'"));
+    EXPECT_THAT(it.way_out("Parse Error: std::bad_alloc"), HasSubstr("--memory-limit"));
+    EXPECT_THAT(Confinement().way_out("Parse Error: std::bad_alloc"), IsEmpty());
+}
+
+TEST_F(ConfinementTest, WhatIsToBeAllowedMustBeThere) {
+    if (!can_restrict_files()) GTEST_SKIP() << "this kernel has no Landlock";
+    options_.allow_read = {"../none"};
+    EXPECT_THAT([&] { confinement(); },
+                testing::ThrowsMessage<Failure>(HasSubstr("--allow-read '../none'")));
+}
+
+TEST_F(ConfinementTest, OffLeavesFilesAndLimitsTheRest) {
+    options_.confine = Confining::off;
+    const Confinement it = confinement();
+    EXPECT_FALSE(it.restricts_files());
+    EXPECT_FALSE(it.request(needs()).files);
+    EXPECT_TRUE(it.request(needs()).memory_limit_bytes);
+    EXPECT_FALSE(Confinement().request(needs()).memory_limit_bytes);
+}
+
+TEST_F(ConfinementTest, SharesTheMemoryByThreads) {
+    const auto limit = [&](int threads) {
+        LaunchNeeds needs = this->needs();
+        needs.threads = threads;
+        return confinement().request(needs).memory_limit_bytes.value_or(0) / mib;
+    };
+    EXPECT_EQ(limit(1), 1638U) << "80 % of 8 GiB for 4 cores";
+    EXPECT_EQ(limit(4), 6553U);
+    EXPECT_EQ(limit(9), 6553U) << "there is no more";
+    const Confinement small(options_, {gib, 16}, at("own"));
+    EXPECT_EQ(small.request(needs()).memory_limit_bytes, gib) << "POV-Ray needs some";
+    options_.memory_limit = {false, 300 * mib};
+    EXPECT_EQ(limit(4), 300U);
+    options_.memory_limit = {false, {}};
+    EXPECT_EQ(limit(4), 0U);
+}
+
+TEST_F(ConfinementTest, LimitsWhatALaunchWrites) {
+    const std::uint64_t half = fs::space(at("launch")).available / 2;
+    LaunchNeeds needs = this->needs();
+    EXPECT_LE(confinement().request(needs).folder_limit.value().bytes, gib);
+    EXPECT_EQ(confinement().request(needs).file_size_limit_bytes, gib);
+    needs.pixels = std::uint64_t{60000} * 40000;
+    EXPECT_GT(confinement().request(needs).file_size_limit_bytes.value_or(0), *needs.pixels * 20)
+        << "the file with holes, whatever is free";
+    needs.pixels.reset();
+    const std::uint64_t most = confinement().request(needs).folder_limit.value().bytes;
+    EXPECT_FALSE(confinement().request(needs).file_size_limit_bytes);
+    EXPECT_GT(most, half / 2);
+    EXPECT_LT(most, half * 2);
+    options_.disk_limit = {false, 5 * mib};
+    const ChildRequest request = confinement().request(needs);
+    EXPECT_EQ(request.folder_limit.value().bytes, 5 * mib);
+    EXPECT_EQ(request.folder_limit.value().folder, at("launch"));
+    EXPECT_EQ(request.file_size_limit_bytes, 5 * mib);
+}
+
+TEST_F(ConfinementTest, ASceneThatWritesRunsInAFolderOfItsLaunch) {
+    if (!can_restrict_files()) GTEST_SKIP() << "this kernel has no Landlock";
+    std::ofstream(at("work/scene.pov")) << "#fopen F \"a.txt\" write\n";
+    const ChildRequest request = confinement().request(needs());
+    EXPECT_EQ(request.working_directory, at("launch/run"));
+    EXPECT_THAT(confinement().note(), HasSubstr("--allow-write"));
+    EXPECT_TRUE(fs::exists(at("launch/run/scene.pov")));
+    EXPECT_THAT(request.argv, Contains("+L\"" + at("work").string() + "\""));
+    options_.allow_write = {"."};
+    EXPECT_TRUE(confinement().request(needs()).working_directory.empty())
+        << "it may write into the folder of the run";
+}
+
+}  // namespace
+}  // namespace mpipov

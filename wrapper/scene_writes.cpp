@@ -1,0 +1,85 @@
+#include "scene_writes.h"
+
+#include "scene_files.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <regex>
+
+namespace mpipov {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Includes are far shorter, and a scan of a mesh is not worth its time.
+constexpr std::uintmax_t most_scanned_bytes = std::uintmax_t{16} << 20;
+constexpr std::uintmax_t most_copied_bytes = std::uintmax_t{64} << 20;
+// Between the directive and its last word.
+constexpr std::size_t longest_name = 400;
+
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+std::string_view without_blanks(std::string_view text) {
+    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+    return text;
+}
+
+// HANDLE "name" write: the name, where it is a literal.
+void take_directive(std::string_view text, SceneWrites& writes) {
+    text = text.substr(0, std::min(text.find('#'), longest_name));
+    static const std::regex shape(
+        R"re(^\s*\w+\s+(?:"([^"]*)"|([^"][\s\S]*?))\s*\b(write|append)\b)re");
+    std::match_results<std::string_view::const_iterator> match;
+    if (!std::regex_search(text.begin(), text.end(), match, shape)) return;
+    writes.any = true;
+    if (match[1].matched) writes.names.push_back(match[1].str());
+}
+
+}  // namespace
+
+SceneWrites writes_in(std::string_view text) {
+    SceneWrites writes;
+    for (std::size_t at = text.find('#'); at != std::string_view::npos; at = text.find('#', at)) {
+        const std::string_view behind = without_blanks(text.substr(++at));
+        constexpr std::string_view word = "fopen";
+        if (behind.substr(0, word.size()) == word)
+            take_directive(behind.substr(word.size()), writes);
+    }
+    return writes;
+}
+
+SceneWrites writes_of_scene(const std::vector<std::string>& arguments,
+                            const std::vector<fs::path>& library_paths) {
+    SceneWrites all;
+    for (const fs::path& file : scene_files({{}, arguments, library_paths, {}})) {
+        std::error_code error;
+        if (fs::file_size(file, error) > most_scanned_bytes || error) continue;
+        std::ifstream in(file, std::ios::binary);
+        const std::string text{std::istreambuf_iterator<char>(in), {}};
+        SceneWrites one = writes_in(text);
+        all.any = all.any || one.any;
+        std::move(one.names.begin(), one.names.end(), std::back_inserter(all.names));
+    }
+    return all;
+}
+
+void make_writable_view(const fs::path& folder, const fs::path& original,
+                        const std::vector<std::string>& written) {
+    fs::create_directory(folder);
+    for (const auto& entry : fs::directory_iterator(original)) {
+        const std::string name = entry.path().filename().string();
+        std::error_code error;
+        const bool copied = std::find(written.begin(), written.end(), name) != written.end() &&
+                            entry.is_regular_file(error) &&
+                            entry.file_size(error) <= most_copied_bytes;
+        if (copied)
+            fs::copy_file(entry.path(), folder / name, error);
+        else
+            fs::create_symlink(entry.path(), folder / name, error);
+    }
+}
+
+}  // namespace mpipov

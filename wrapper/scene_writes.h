@@ -1,0 +1,29 @@
+// Scenes that write files (#fopen ... write), and a folder in which they can.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mpipov {
+
+struct SceneWrites {
+    bool any = false;
+    std::vector<std::string> names;  // those that stand there as string literals
+};
+
+// What a scene's text says, comments included.
+SceneWrites writes_in(std::string_view text);
+
+// Of all files that the arguments name and what these name in turn, as scene_files() finds them.
+SceneWrites writes_of_scene(const std::vector<std::string>& arguments,
+                            const std::vector<std::filesystem::path>& library_paths);
+
+// Makes `folder` look like `original` to a program that runs in it: with a link to everything that
+// lies there. What the scene writes there stays in `folder`: of those names it gets copies. Names
+// that begin with ../ lead elsewhere. Throws std::filesystem::filesystem_error.
+void make_writable_view(const std::filesystem::path& folder, const std::filesystem::path& original,
+                        const std::vector<std::string>& written);
+
+}  // namespace mpipov
