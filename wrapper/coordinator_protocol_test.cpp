@@ -109,13 +109,14 @@ TEST_F(ProtocolTest, RefusesWhatFollowsDone) {
 
 TEST_F(ProtocolTest, RefusesPixelsOutsideOfTheSection) {
     constexpr int most = std::numeric_limits<int>::max();
-    for (const Rect& rect :
-         {Rect{7, 0, 22, 10}, Rect{8, 0, 23, 10}, Rect{8, 0, 22, 11}, Rect{8, -1, 22, 10},
-          Rect{30, 0, 40, 10}, Rect{22, 10, 8, 0}, Rect{8, 0, 22, 0}})
+    for (const Rect& rect : {Rect{7, 0, 22, 10}, Rect{8, 0, 23, 10}, Rect{8, 0, 22, 11},
+                             Rect{30, 0, 40, 10}, Rect{22, 10, 8, 0}, Rect{8, 0, 22, 0}})
         refused(band(1, 1, rect), "outside of section 1");
-    for (const Rect& rect : {Rect{8, 0, most, most}, Rect{-most, -most, 22, 10}})
+    refused(message(MessageKind::band, 1, 1, {{"rect", rect_to_json({8, 0, most, most})}}, 30),
+            "outside of section 1");
+    for (const Rect& rect : {Rect{8, -1, 22, 10}, Rect{-most, -most, 22, 10}})
         refused(message(MessageKind::band, 1, 1, {{"rect", rect_to_json(rect)}}, 30),
-                "outside of section 1");
+                "negative edge");
 }
 
 TEST_F(ProtocolTest, RefusesOtherRowsThanTheNext) {
