@@ -83,7 +83,9 @@ class Place:
                 "TMPDIR": str(temporary or self.temporary), MARK: self.mark}
 
     def arguments(self, *more):
-        return [*SCENE_ARGUMENTS, "+Oimage.png", *GRID, "--povray", "./povray", *more]
+        # The script in POV-Ray's place writes, removes and mounts: nothing that a scene may do.
+        return [*SCENE_ARGUMENTS, "+Oimage.png", *GRID, "--povray", "./povray", "--confine", "off",
+                *more]
 
     def mpipov(self, ranks, *more, hook="", temporary=None):
         """A run to its end; no process of it may be left."""

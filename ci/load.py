@@ -97,7 +97,7 @@ def load(options):
     argv = [programs.mpiexec, "-n", options.ranks, programs.mpipov, "scene.pov", f"+W{size}",
             f"+H{size}", "-A", "+FP", "+Oimage.ppm", "--shape", "tiles", "--seams", "plain",
             "--sections", options.sections, "--schedule", "dynamic", "--in-flight", "1", "--slots", "1",
-            "--threads", "1", "--povray", "./povray", "--progress", "none"]
+            "--threads", "1", "--povray", "./povray", "--confine", "off", "--progress", "none"]
     watch = Watch()
     with open(folder / "said", "w", encoding="utf-8") as said, \
             subprocess.Popen([str(word) for word in argv], cwd=folder, env=environment, stderr=said,
