@@ -8,6 +8,7 @@ import itertools
 import re
 from dataclasses import dataclass
 
+BLOCK = 32  # edge of POV-Ray's render blocks: aligned sections are made of them
 SEAMS = ("aligned", "halo")
 SHAPES = ("columns", "rows", "tiles")
 SIZES = ("full", "one_pixel")
@@ -49,7 +50,10 @@ class Group:
     def grid(self, scene):
         """Width and height of the picture, and the number of its sections."""
         if self.size == "full":
-            return scene.size, FULL_SECTIONS[self.shape]
+            unit = BLOCK if self.seams == "aligned" else 1
+            across, down = (-(-side // unit) for side in scene.size)
+            most = {"columns": across, "rows": down, "tiles": across * down}[self.shape]
+            return scene.size, min(most, FULL_SECTIONS[self.shape])
         if self.seams == "aligned":
             size, sections = ALIGNED_ONE_PIXEL
             return size, sections[self.shape]

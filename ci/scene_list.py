@@ -47,6 +47,7 @@ class HardScene(Scene):
     limit_seconds: float  # of wall clock, for one run of mpipov on a busy machine
     not_finite: bool  # its EXR file holds infinities, or what is no number
     output: tuple  # png8, png16, exr
+    exact_with: tuple  # options with which no pixel depends on the order: what that is due to
 
 
 def hard_scenes():
@@ -58,7 +59,7 @@ def hard_scenes():
             one["name"].replace("/", "."), FOLDER / one["file"], tuple(one["size"]),
             tuple(one["options"]), one["effects"], one["order_dependent"], one["serial_seconds"],
             one.get("rare_pixels", False), first.removeprefix("// Hard: "), one["limit_seconds"],
-            one.get("not_finite", False), tuple(one["output"])))
+            one.get("not_finite", False), tuple(one["output"]), tuple(one.get("exact_with", []))))
     return scenes
 
 
