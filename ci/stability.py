@@ -115,17 +115,20 @@ def measure_command(options):
 
 def write_record(options):
     """Of all that was measured so far."""
-    found = []
-    for name, listed in GROUPS.items():
+    found, listed = [], {}
+    for name, scenes_of in GROUPS.items():
         try:
-            found += [finished(options.work / name / scene.name) for scene in listed()]
+            scenes = scenes_of()
         except Skip as reason:
             print(f"{name}: {reason}")
-    found = [one for one in found if one]
+            continue
+        listed[name] = len(scenes)
+        found += [one for one in (finished(options.work / name / scene.name) for scene in scenes)
+                  if one]
     RECORDS.mkdir(parents=True, exist_ok=True)
     part = RECORDS / "conditioning.json.part"
     part.write_text(json.dumps({"format": "mpipov-conditioning", "version": 1,
-                                "debian_size": DEBIAN_SIZE, "debian_options": DEBIAN_OPTIONS,
+                                "listed": listed, "debian_size": DEBIAN_SIZE, "debian_options": DEBIAN_OPTIONS,
                                 "scenes": found}, indent=1) + "\n")
     os.replace(part, RECORDS / "conditioning.json")
 

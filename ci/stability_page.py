@@ -136,7 +136,7 @@ def group_sentence(name, scenes):
     if failed:
         parts.append(f"{len(failed)} not measured")
     measured = len(scenes) - len(left_out)
-    more = f" ({len(left_out)} more were left out)" if left_out else ""
+    more = f" ({len(left_out)} more take longer or fail)" if left_out else ""
     return f"{name}, {measured} scenes{more}: {', '.join(parts)}."
 
 
@@ -153,8 +153,9 @@ def conditioning_part(record):
         width, height = record["debian_size"]
         yield "### Debian's examples\n"
         yield (f"At {width} x {height} pixels with `{' '.join(record['debian_options'])}`, those that "
-               "render within 2 CPU seconds. " + group_sentence("povray-examples", groups["debian"])
-               + " Those that are not well-conditioned:\n")
+               f"render within 2 CPU seconds; {len(groups['debian'])} of {record['listed']['debian']} were "
+               "looked at, every eighth first. " + group_sentence("povray-examples", groups["debian"])
+               + " The others:\n")
         bad = [one for one in groups["debian"] if verdict_of(one) in TROUBLE]
         yield table(head, condition_rows(bad)) + "\n"
         ways = Counter(one["moved_by"] for one in groups["debian"] if verdict_of(one))
