@@ -34,6 +34,12 @@ static_assert(large_bytes > 3 * max_band_bytes);
 // A worker on rank 1; the test is its coordinator.
 class WorkerTest : public FakePovrayTest {
   protected:
+    // A launch that has done its work may be leaving still.
+    void TearDown() override {
+        worker_.handle({MessageKind::stop, 1, nlohmann::json::object(), {}});
+        FakePovrayTest::TearDown();
+    }
+
     static nlohmann::json job_head(const ImageSize& size = image) {
         JobCommand job = fake_job(size);
         return {{"povray", job.povray},
