@@ -29,7 +29,7 @@ one level of 255; the *amplification* is the RMS difference as part of full scal
 |---|---|
 | well-conditioned | no pixel answers a move of 1e-9 or less |
 | well-conditioned but for spots | some do, no more than one in 1000: an edge lies on a sample |
-| sensitive | more than one in 1000 answer 1e-9, no more answer 1e-12: the answer shrinks with the move |
+| sensitive | more than one in 1000 answer 1e-9, not so many 1e-12: the answer shrinks with the move |
 | ill-conditioned | more than one in 1000 answer 1e-12: rounding decides what is seen |
 | cannot be told from noise | they do, but the scene depends on the order of rendering, and no more than twice as much as serial renders in other orders: one pixel that answers deals other random numbers to all that follow |
 
