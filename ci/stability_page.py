@@ -40,6 +40,7 @@ scene and something to the arithmetic. One in 1000 leaves room for edges that li
 `mpipov-validate seams` asks this where it would call a case wrong. Where the scene is ill-conditioned, and no pixel
 differs from the serial render by more than it or one next to it answers to a move of 1e-9 or less, the verdict is
 *ill-conditioned* and the seam is not blamed. Where one pixel differs by more, the verdict stands.
+Where nearly all of a picture answers, that excuses much: damage beside pixels that answer by as much is not seen then.
 
 How the camera is moved: the scene's files are not touched. A later camera statement cannot know the scene's camera, a
 header cannot reach it, and keywords cannot be redefined; so a copy of the scene, in a temporary folder, gets
