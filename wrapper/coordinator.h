@@ -8,6 +8,7 @@
 #include "povray_command.h"
 #include "run_record.h"
 #include "schedule.h"
+#include "shipped_scene.h"
 #include "stitch.h"
 #include "transport.h"
 
@@ -35,6 +36,7 @@ struct CoordinatorSetup {
     int widest_halo = 32;             // a seam whose overlap still disagrees then is left as it is
     std::string cache = {};           // of radiosity, which every launch reads; empty: none
     bool gathers = false;             // what comes back are radiosity samples, and no pixels
+    ShippedScene shipped = {};        // to ranks that do not have it
 };
 
 // Of a finished section, for the journal; Coordinator::resume() takes it back.

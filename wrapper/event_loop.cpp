@@ -21,7 +21,8 @@ constexpr int longest_sleep_alone_ms = 100;
 bool is_for_worker(const Message& message) {
     const MessageKind kind = message.kind;
     return kind == MessageKind::job || kind == MessageKind::assign || kind == MessageKind::cancel ||
-           kind == MessageKind::stop ||
+           kind == MessageKind::stop || kind == MessageKind::look || kind == MessageKind::pack ||
+           kind == MessageKind::piece ||
            (kind == MessageKind::cache && !message.head.contains("section"));
 }
 

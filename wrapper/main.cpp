@@ -6,6 +6,7 @@
 #include "options.h"
 #include "probe.h"
 #include "render_job.h"
+#include "scene_view.h"
 #include "scratch.h"
 #include "slots.h"
 #include "standard_output.h"
@@ -103,6 +104,7 @@ void serve(const Options& options, const Self& self, Transport& transport) {
                         {{"slots", record.slots},
                          {"pool", self.pool},
                          {"host", record.host},
+                         {"view", point_of_view()},
                          {"povray", povray}},
                         {}});
         run_event_loop({transport, worker});

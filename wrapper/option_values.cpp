@@ -95,6 +95,17 @@ void set_schedule(Options& o, const std::string& value) {
     bad_value(value, "one of static, dynamic, cost");
 }
 
+void set_ship(Options& o, const std::string& value) {
+    if (value == "auto")
+        o.ship = Ship::automatic;
+    else if (value == "on")
+        o.ship = Ship::on;
+    else if (value == "off")
+        o.ship = Ship::off;
+    else
+        bad_value(value, "one of auto, on, off");
+}
+
 void set_progress(Options& o, const std::string& value) {
     if (value == "auto")
         o.progress = ProgressStyle::automatic;

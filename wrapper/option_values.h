@@ -17,6 +17,7 @@ void set_seams(Options& options, const std::string& value);
 void set_shape(Options& options, const std::string& value);
 void set_radiosity(Options& options, const std::string& value);
 void set_schedule(Options& options, const std::string& value);
+void set_ship(Options& options, const std::string& value);
 void set_progress(Options& options, const std::string& value);
 void set_timeout(Options& options, const std::string& value);
 

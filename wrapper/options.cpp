@@ -80,6 +80,10 @@ constexpr std::array rows{
         }},
     Row{sharing, "dedicated-coordinator", nullptr, "rank 0 renders nothing, as in MPIPOV2", nullptr,
         [](Options& o, const std::string&) { o.dedicated_coordinator = true; }},
+    Row{files, "ship", "WHEN",
+        "whether a packed copy of the scene, with the files that it names, is sent to other hosts: "
+        "on, off, or auto: where a host lacks one of the files or has another one of that name",
+        "auto", set_ship},
     Row{files, "record", "FILE", "where the record of the run goes", "run.json beside the image",
         [](Options& o, const std::string& v) { o.record = v; }},
     Row{files, "work-dir", "DIR", "where finished sections are kept until the image is complete",

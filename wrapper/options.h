@@ -4,6 +4,7 @@
 #include "radiosity_sharing.h"
 #include "schedule.h"
 #include "section.h"
+#include "shipped_scene.h"
 
 #include <filesystem>
 #include <optional>
@@ -28,6 +29,7 @@ struct Options {
     std::optional<int> in_flight;
     std::optional<int> slots;
     bool dedicated_coordinator = false;
+    Ship ship = Ship::automatic;
     std::filesystem::path work_dir;  // empty: beside the output
     bool resume = false;
     std::optional<double> timeout_seconds;

@@ -132,6 +132,13 @@ std::vector<std::pair<std::string, std::string>> temporary_files_in(
     return {{"POV_TEMP_DIR", folder.string()}};
 }
 
+std::vector<std::pair<std::string, std::string>> launch_environment(
+    const JobCommand& job, const std::filesystem::path& folder) {
+    auto environment = temporary_files_in(folder);
+    if (!job.ini.empty()) environment.emplace_back("POVINI", job.ini.string());
+    return environment;
+}
+
 std::vector<std::string> quote_arguments(const std::vector<std::string>& arguments) {
     std::vector<std::string> out;
     out.reserve(arguments.size());

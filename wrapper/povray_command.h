@@ -34,6 +34,8 @@ struct JobCommand {
     int block = 0;  // +BS, 0: as the user said
     // A radiosity cache that every launch reads; empty: none of ours.
     std::filesystem::path radiosity_cache = {};
+    // Of a copy of the scene: where POV-Ray runs, and its povray.ini. Empty: where we run, its own.
+    std::filesystem::path folder = {}, ini = {};
 };
 
 // The whole argv. `output_base` is the section's own: POV-Ray names the image and its .pov-state
@@ -57,6 +59,9 @@ std::vector<std::string> whole_command(const JobCommand& job,
 // file, which stays behind where it is killed; it asks POV_TEMP_DIR for the place, not TMPDIR.
 std::vector<std::pair<std::string, std::string>> temporary_files_in(
     const std::filesystem::path& folder);
+// The same, and which povray.ini it reads.
+std::vector<std::pair<std::string, std::string>> launch_environment(
+    const JobCommand& job, const std::filesystem::path& folder);
 
 // POV-Ray splits an argument at blanks (`"+W320 +H240"` are two options), so a file name that has
 // blanks must be in quotation marks. Users do not expect that: where an argument is a file option

@@ -58,6 +58,11 @@ void Worker::handle(const Message& message) {
         case MessageKind::cache:
             cache_.take(message.body);
             break;
+        case MessageKind::look:
+        case MessageKind::pack:
+        case MessageKind::piece:
+            take_scene(message);
+            break;
         case MessageKind::assign:
             start(message);
             break;
@@ -76,8 +81,14 @@ void Worker::take_job(const nlohmann::json& head) {
     cache_.begin(scratch_ / "radiosity.cache", head.at("cache_bytes"));
     ++jobs_;
     gathers_ = head.at("gathers");
-    job_ = {head.at("povray"),  head.at("user_arguments"), head.at("format_arguments"),
-            head.at("threads"), head.at("block"),          cache_.file()};
+    job_ = {head.at("povray"),
+            head.at("user_arguments"),
+            head.at("format_arguments"),
+            head.at("threads"),
+            head.at("block"),
+            cache_.file(),
+            head.at("folder").get<std::string>(),
+            head.at("ini").get<std::string>()};
     image_ = {head.at("width"), head.at("height")};
     timeout_seconds_.reset();
     if (!head.at("timeout_seconds").is_null())
@@ -127,7 +138,8 @@ PreparedLaunch Worker::launch(const Section& section, int attempt) {
         request.argv =
             section_command(job_, section.render, image_, folder.path() / section_image_name);
     }
-    request.environment = temporary_files_in(folder.path());
+    request.environment = launch_environment(job_, folder.path());
+    request.working_directory = job_.folder;
     request.timeout_seconds = timeout_seconds_;
     return {std::move(folder), ChildProcess::start(request)};
 }

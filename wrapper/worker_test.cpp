@@ -45,6 +45,8 @@ class WorkerTest : public FakePovrayTest {
                 {"height", size.height},
                 {"gathers", false},
                 {"cache_bytes", 0},
+                {"folder", ""},
+                {"ini", ""},
                 {"timeout_seconds", 30}};
     }
 
