@@ -68,7 +68,7 @@ class Namespaces:
         self.holder = subprocess.Popen(
             ["unshare", *kinds, "-p", "-f", "--kill-child", "--mount-proc", "--propagation",
              "private", "sh", "-c", "read line; exec sleep infinity"],
-            stdin=subprocess.PIPE, preexec_fn=_die_with_parent)
+            stdin=subprocess.PIPE, stderr=subprocess.DEVNULL, preexec_fn=_die_with_parent)
         self.pid = self._inner()
 
     def _inner(self):
@@ -121,8 +121,8 @@ mount -t tmpfs -o mode=755 {self.name} /mnt
 mkdir -p {BIN} {KEYS} {HOME} /mnt/empty
 mount --bind {bin_folder} {BIN}
 cp -r {keys}/. {KEYS}
-mount -t tmpfs -o mode=1777 {self.name} /tmp
 mount -t tmpfs -o mode=755 {self.name} {ROOT}
+mount -t tmpfs -o mode=1777 {self.name} /tmp
 mkdir -p /run/sshd
 """)
         Path(f"/proc/{self.pid}/root{KEYS}/ssh").write_text(SSH_SCRIPT.format(keys=KEYS))
@@ -234,16 +234,18 @@ class Hosts:
             self.switch.close()
 
 
-def mpiexec(programs, hosts, slots):
-    """hydra's words for one rank a slot on those hosts, started on the first one."""
+def mpiexec(programs, hosts, slots=1):
+    """hydra's first words; it is started on the first host."""
     text = "".join(f"{host.name}:{slots}\n" for host in hosts)
     hosts[0].path("/mnt/hostfile").write_text(text)
-    return [programs.mpiexec, "-launcher", "ssh", "-launcher-exec", SSH, "-f", "/mnt/hostfile",
-            "-n", str(slots * len(hosts))]
+    return [programs.mpiexec, "-launcher", "ssh", "-launcher-exec", SSH, "-f", "/mnt/hostfile"]
 
 
-def run_on(host, argv, folder, seconds, environment=None):
+def on_host(folder):
+    """What a command on a host begins with, after host.enter()."""
+    return ["env", "-C", folder, f"HOME={HOME}", f"PATH={BIN}:{PATH}"]
+
+
+def run_on(host, argv, folder, seconds):
     """Runs to the end in a folder of the host's."""
-    words = [*host.enter(), "env", "-C", folder, f"HOME={HOME}", f"PATH={BIN}:{PATH}",
-             *(environment or []), *argv]
-    return run(words, "/", None, seconds)
+    return run([*host.enter(), *on_host(folder), *argv], "/", None, seconds)

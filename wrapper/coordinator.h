@@ -68,6 +68,9 @@ class Coordinator {
     // From 0 to 1, and never less than before: a section that failed or a seam that is rendered
     // again only holds it up.
     double fraction() const;
+    const std::string& host(int rank) const {
+        return setup_.ranks.at(static_cast<std::size_t>(rank)).host;
+    }
     int sections_done() const { return sections_done_; }
     int sections_total() const { return static_cast<int>(sections_.size()); }
 

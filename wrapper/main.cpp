@@ -20,6 +20,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -81,20 +82,41 @@ Self about_this_rank(const Options& options, int rank) {
             share.local_size};
 }
 
-void send_refusal(Transport& transport, const RankRecord& self, Exit code, const std::string& why) {
-    constexpr double patience_seconds = 10, interrupted_seconds = 1;
+// Does not throw where nobody listens.
+void complain(const std::string& what) {
+    std::fputs(fmt::format("mpipov: {}\n", what).c_str(), stderr);
+}
+
+// For the last words of others: when all is well; where it is not, and their host may be gone;
+// after a signal, when the user waits.
+constexpr double patience_seconds = 60, failed_seconds = 6, interrupted_seconds = 1;
+
+// False where rank 0 does not answer.
+bool send_refusal(Transport& transport, const RankRecord& self, Exit code, const std::string& why) {
     transport.send({MessageKind::refused,
                     0,
                     {{"host", self.host}, {"why", why}, {"code", static_cast<int>(code)}},
                     {}});
     // MPI must not be left with an unread message, and rank 0 will send one more.
-    while (const auto message = wait_for_message(transport, patience_seconds, interrupted_seconds))
-        if (message->kind == MessageKind::stop) return;
+    while (const auto message = wait_for_message(transport, failed_seconds, interrupted_seconds))
+        if (message->kind == MessageKind::stop) return true;
+    return false;
+}
+
+// MPI_Finalize would wait for a rank that does not answer, for ever where its host is gone.
+[[noreturn]] void abandon(const std::string& what) {
+    complain(what);
+    MPI_Abort(MPI_COMM_WORLD, static_cast<int>(Exit::interrupted));
+    std::abort();  // MPI_Abort does not return
 }
 
 // What every rank but 0 does. Whatever stands in its way, rank 0 hears of it.
 void serve(const Options& options, const Self& self, Transport& transport) {
     const RankRecord& record = self.record;
+    const auto refuse = [&](Exit code, const std::string& why) {
+        if (!send_refusal(transport, record, code, why))
+            abandon(fmt::format("host {} (rank {}): {}", record.host, record.rank, why));
+    };
     try {
         const ScratchFolder scratch(fmt::format("rank{}", record.rank));
         Worker worker(transport, scratch.path());
@@ -109,25 +131,19 @@ void serve(const Options& options, const Self& self, Transport& transport) {
                         {}});
         run_event_loop({transport, worker});
     } catch (const Failure& failure) {
-        send_refusal(transport, record, failure.code(), failure.what());
+        refuse(failure.code(), failure.what());
     } catch (const std::exception& error) {
-        send_refusal(transport, record, Exit::interrupted, error.what());
+        refuse(Exit::interrupted, error.what());
     }
 }
 
-// Does not throw where nobody listens.
-void complain(const std::string& what) {
-    std::fputs(fmt::format("mpipov: {}\n", what).c_str(), stderr);
-}
-
 // Tells the other ranks to stop and hears them out: MPI must not be left with unread messages.
-// A user who interrupts does not wait for a rank that does not answer: false then.
-bool dismiss(Transport& transport) {
-    constexpr double patience_seconds = 10, interrupted_seconds = 1;
+// False where one of them does not answer.
+bool dismiss(Transport& transport, double seconds) {
     send_stops(transport);
     for (int waiting = transport.size() - 1; waiting > 0;) {
-        const auto message = wait_for_message(transport, patience_seconds, interrupted_seconds);
-        if (!message) return !interrupted();
+        const auto message = wait_for_message(transport, seconds, interrupted_seconds);
+        if (!message) return false;
         if (message->kind == MessageKind::bye) --waiting;
     }
     return true;
@@ -168,13 +184,12 @@ int run(const std::vector<std::string>& arguments, int rank) {
     try {
         coordinate(options, arguments, self, transport);
     } catch (const std::exception& error) {
-        if (!dismiss(transport)) {  // MPI_Finalize would wait for the rank too
-            complain(error.what());
-            MPI_Abort(MPI_COMM_WORLD, static_cast<int>(Exit::interrupted));
-        }
+        if (!dismiss(transport, failed_seconds)) abandon(error.what());
         throw;
     }
-    dismiss(transport);
+    // The image is there.
+    if (!dismiss(transport, patience_seconds))
+        abandon("a rank did not answer at the end; the image is complete");
     return 0;
 }
 

@@ -19,6 +19,7 @@ void set_radiosity(Options& options, const std::string& value);
 void set_schedule(Options& options, const std::string& value);
 void set_ship(Options& options, const std::string& value);
 void set_progress(Options& options, const std::string& value);
+void set_lost_after(Options& options, const std::string& value);
 void set_timeout(Options& options, const std::string& value);
 
 }  // namespace mpipov

@@ -34,6 +34,7 @@ struct Options {
     bool resume = false;
     std::optional<double> timeout_seconds;
     int retries = 2;
+    double lost_after_seconds = 15;
     bool dry_run = false;
     ProgressStyle progress = ProgressStyle::automatic;
     std::filesystem::path record;  // empty: run.json beside the output

@@ -235,7 +235,8 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
                                               progress.update_gathering(
                                                   wave + 1, static_cast<int>(plan.waves.size()),
                                                   fraction, clock.seconds());
-                                          }},
+                                          },
+                                          options.lost_after_seconds},
                                          record, job.ranks);
         progress.begin_image(clock.seconds());
         coordinator.emplace(std::move(job), transport, canvas, journal ? &*journal : nullptr, now);
@@ -244,10 +245,12 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
                                         take_finished_sections(*coordinator, *journal),
                                         plan.record.sections));
         coordinator->start();
-        run_event_loop({transport, worker, &*coordinator, [&] {
+        run_event_loop({transport, worker, &*coordinator,
+                        [&] {
                             progress.update(coordinator->fraction(), coordinator->sections_done(),
                                             coordinator->sections_total(), clock.seconds());
-                        }});
+                        },
+                        options.lost_after_seconds});
         progress.finish(coordinator->sections_total(), clock.seconds());
         coordinator->place_repairs();
 

@@ -34,8 +34,11 @@ SceneRequest scene_request(const Probe& probe, const std::vector<std::string>& a
     return request;
 }
 
-SceneView view_scene(const SceneRequest& request) {
+SceneView view_scene(const SceneRequest& request, const std::vector<fs::path>& more) {
     SceneView view;
+    for (const fs::path& file : more)
+        if (std::error_code error; fs::is_regular_file(file, error))
+            view.files[file.string()] = sha1_of_file(file);
     for (const fs::path& file : scene_names(request).all)
         view.files[file.string()] = sha1_of_file(file);
     const fs::path ini = povray_ini();

@@ -22,8 +22,10 @@ struct SceneView {
 // `arguments` are POV-Ray's.
 SceneRequest scene_request(const Probe& probe, const std::vector<std::string>& arguments);
 
-// Reads them all. Throws nothing but std::bad_alloc.
-SceneView view_scene(const SceneRequest& request);
+// Reads them all, and `more` where they are there: a rank that lacks the scene does not know what
+// its text names. Throws nothing but std::bad_alloc.
+SceneView view_scene(const SceneRequest& request,
+                     const std::vector<std::filesystem::path>& more = {});
 
 // In what `theirs` differs: "lacks 'scene.pov'", "has another 'tile.png'", "has 'tile.png', which
 // rank 0 does not see", "has another povray.ini"; "" where they are the same.

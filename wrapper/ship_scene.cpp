@@ -152,8 +152,11 @@ Shipping ship_scene(const ShipRequest& request, Transport& transport) {
     std::vector<Place> places = other_places(request.ranks);
     if (places.empty()) return {};
     const SceneView ours = view_scene(request.scene);
-    Talk(transport, places, request.patience_seconds)
-        .send_to_all(MessageKind::look, to_json(request.scene));
+    nlohmann::json look = to_json(request.scene);
+    look["absolute"] = nlohmann::json::array();
+    for (const std::filesystem::path& file : scene_names(request.scene).absolute_in_text)
+        look["absolute"].push_back(file.string());
+    Talk(transport, places, request.patience_seconds).send_to_all(MessageKind::look, look);
     Talk(transport, places, request.patience_seconds)
         .hear_all(MessageKind::seen, [](Place& place, const nlohmann::json& head) {
             place.view = scene_view_from_json(head);

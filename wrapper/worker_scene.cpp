@@ -11,7 +11,10 @@ constexpr int coordinator = 0;
 
 void Worker::take_scene(const Message& message) {
     if (message.kind == MessageKind::look) {
-        const SceneView seen = view_scene(scene_request_from_json(message.head));
+        std::vector<std::filesystem::path> absolute;
+        for (const nlohmann::json& name : message.head.at("absolute"))
+            absolute.emplace_back(name.get<std::string>());
+        const SceneView seen = view_scene(scene_request_from_json(message.head), absolute);
         transport_.send({MessageKind::seen, coordinator, to_json(seen), {}});
         return;
     }
