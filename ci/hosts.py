@@ -67,8 +67,8 @@ class Namespaces:
         # The holder ends with us even where we are killed.
         self.holder = subprocess.Popen(
             ["unshare", *kinds, "-p", "-f", "--kill-child", "--mount-proc", "--propagation",
-             "private", "sh", "-c", "read line; exec sleep infinity"],
-            stdin=subprocess.PIPE, stderr=subprocess.DEVNULL, preexec_fn=_die_with_parent)
+             "private", "bash", "-c", "sleep infinity & wait"],  # it reaps what others leave
+            stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=_die_with_parent)
         self.pid = self._inner()
 
     def _inner(self):
@@ -96,7 +96,6 @@ class Namespaces:
     def close(self):
         with contextlib.suppress(ProcessLookupError):
             os.kill(self.pid, signal.SIGKILL)
-        self.holder.stdin.close()
         self.holder.wait()
 
 

@@ -62,7 +62,8 @@ class Watch {
         if (!on_) return;
         const double now = seconds_now();
         if (is_rank_0() && beat_.due(now)) say_to_all(loop_.lost_after_seconds);
-        if (const auto peer = beat_.lost(now)) throw Failure(Exit::interrupted, silence_of(*peer));
+        if (const auto peer = beat_.lost(now))
+            throw Failure(Exit::interrupted, silence_of(*peer), true);
     }
 
     // Rank 0 has other things to do now, and need not be watched.

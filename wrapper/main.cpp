@@ -87,20 +87,19 @@ void complain(const std::string& what) {
     std::fputs(fmt::format("mpipov: {}\n", what).c_str(), stderr);
 }
 
-// For the last words of others: when all is well; where it is not, and their host may be gone;
-// after a signal, when the user waits.
-constexpr double patience_seconds = 60, failed_seconds = 6, interrupted_seconds = 1;
+// For the last words of others; where one of them is lost; after a signal, when the user waits.
+constexpr double patience_seconds = 60, lost_seconds = 3, interrupted_seconds = 1;
+constexpr double no_limit = 1e9;
 
-// False where rank 0 does not answer.
-bool send_refusal(Transport& transport, const RankRecord& self, Exit code, const std::string& why) {
+void send_refusal(Transport& transport, const RankRecord& self, Exit code, const std::string& why) {
     transport.send({MessageKind::refused,
                     0,
                     {{"host", self.host}, {"why", why}, {"code", static_cast<int>(code)}},
                     {}});
-    // MPI must not be left with an unread message, and rank 0 will send one more.
-    while (const auto message = wait_for_message(transport, failed_seconds, interrupted_seconds))
-        if (message->kind == MessageKind::stop) return true;
-    return false;
+    // MPI must not be left with an unread message, and rank 0 will send one more, though not before
+    // its probe is over.
+    while (const auto message = wait_for_message(transport, no_limit, interrupted_seconds))
+        if (message->kind == MessageKind::stop) return;
 }
 
 // MPI_Finalize would wait for a rank that does not answer, for ever where its host is gone.
@@ -113,10 +112,6 @@ bool send_refusal(Transport& transport, const RankRecord& self, Exit code, const
 // What every rank but 0 does. Whatever stands in its way, rank 0 hears of it.
 void serve(const Options& options, const Self& self, Transport& transport) {
     const RankRecord& record = self.record;
-    const auto refuse = [&](Exit code, const std::string& why) {
-        if (!send_refusal(transport, record, code, why))
-            abandon(fmt::format("host {} (rank {}): {}", record.host, record.rank, why));
-    };
     try {
         const ScratchFolder scratch(fmt::format("rank{}", record.rank));
         Worker worker(transport, scratch.path());
@@ -131,9 +126,11 @@ void serve(const Options& options, const Self& self, Transport& transport) {
                         {}});
         run_event_loop({transport, worker});
     } catch (const Failure& failure) {
-        refuse(failure.code(), failure.what());
+        if (failure.rank_lost())
+            abandon(fmt::format("host {} (rank {}): {}", record.host, record.rank, failure.what()));
+        send_refusal(transport, record, failure.code(), failure.what());
     } catch (const std::exception& error) {
-        refuse(Exit::interrupted, error.what());
+        send_refusal(transport, record, Exit::interrupted, error.what());
     }
 }
 
@@ -176,20 +173,28 @@ int run(const std::vector<std::string>& arguments, int rank) {
     }
     const Self self = about_this_rank(options, rank);
     MpiTransport transport;
+    const bool several_hosts = self.ranks_of_host != transport.size();
     if (rank != 0) {
         serve(options, self, transport);
         transport.send({MessageKind::bye, 0, nlohmann::json::object(), {}});
+        if (!transport.part(2 * patience_seconds, several_hosts))
+            abandon(fmt::format("host {} (rank {}): the others did not come to the end",
+                                self.record.host, rank));
         return 0;
     }
+    const auto part = [&](double seconds, const std::string& what) {
+        if (!dismiss(transport, seconds) || !transport.part(seconds, several_hosts)) abandon(what);
+    };
     try {
         coordinate(options, arguments, self, transport);
+    } catch (const Failure& failure) {
+        part(failure.rank_lost() ? lost_seconds : patience_seconds, failure.what());
+        throw;
     } catch (const std::exception& error) {
-        if (!dismiss(transport, failed_seconds)) abandon(error.what());
+        part(patience_seconds, error.what());
         throw;
     }
-    // The image is there.
-    if (!dismiss(transport, patience_seconds))
-        abandon("a rank did not answer at the end; the image is complete");
+    part(patience_seconds, "a rank did not answer at the end; the image is complete");
     return 0;
 }
 
