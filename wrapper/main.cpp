@@ -105,6 +105,10 @@ void send_refusal(Transport& transport, const RankRecord& self, Exit code, const
 // MPI_Finalize would wait for a rank that does not answer, for ever where its host is gone.
 [[noreturn]] void abandon(const std::string& what) {
     complain(what);
+    // MPI_Abort asks hydra on this host, which waits for mpiexec: on a host that is cut off the
+    // alarm ends us.
+    constexpr unsigned abort_seconds = 2;
+    ::alarm(abort_seconds);
     MPI_Abort(MPI_COMM_WORLD, static_cast<int>(Exit::interrupted));
     std::abort();  // MPI_Abort does not return
 }
@@ -163,7 +167,8 @@ void coordinate(const Options& options, const std::vector<std::string>& argument
     run_job(setup, transport, worker);
 }
 
-int run(const std::vector<std::string>& arguments, int rank) {
+// `several_hosts` tells of the ranks once they have met.
+int run(const std::vector<std::string>& arguments, int rank, bool& several_hosts) {
     const Options options = parse_options(arguments);
     if (options.help || options.version || options.manual) {
         if (rank == 0 && options.help) print_result(help_text());
@@ -173,7 +178,7 @@ int run(const std::vector<std::string>& arguments, int rank) {
     }
     const Self self = about_this_rank(options, rank);
     MpiTransport transport;
-    const bool several_hosts = self.ranks_of_host != transport.size();
+    several_hosts = self.ranks_of_host != transport.size();
     if (rank != 0) {
         serve(options, self, transport);
         transport.send({MessageKind::bye, 0, nlohmann::json::object(), {}});
@@ -209,8 +214,9 @@ int main(int argc, char** argv) {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     int code = 0;
+    bool several_hosts = false;
     try {
-        code = run(std::vector<std::string>(argv + 1, argv + argc), rank);
+        code = run(std::vector<std::string>(argv + 1, argv + argc), rank, several_hosts);
     } catch (const Failure& failure) {
         // Of what every rank finds out by itself, one says it.
         if (rank == 0) complain(failure.what());
@@ -218,6 +224,13 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {
         complain(fmt::format("rank {}: {}", rank, error.what()));
         code = static_cast<int>(Exit::interrupted);
+    }
+    if (several_hosts) {
+        // All have parted (MpiTransport::part). Between hosts MPICH 4.0's MPI_Finalize can wait for
+        // ever: a rank that has closed its connections answers no other one that has not
+        // (docs/clusters.md).
+        std::fflush(nullptr);
+        std::_Exit(code);
     }
     MPI_Finalize();
     return code;
