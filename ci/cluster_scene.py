@@ -29,7 +29,7 @@ FILES = {"job/scene.pov": SCENE, "lib/colours.inc": "#declare Glass = pigment { 
          "0 255 0 250 250 250\n"}
 FONT = Path("/usr/share/povray-3.7/include/cyrvetic.ttf")
 ARGUMENTS = ["scene.pov", "+L../lib", "+A0.1", "+R3", "--progress", "plain"]
-SMALL = ["+W256", "+H192"]
+SMALL = ["+W160", "+H128"]
 LARGE = ["+W512", "+H384"]
 RUN_SECONDS = 300
 WATCH_SECONDS = 0.1

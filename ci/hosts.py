@@ -63,7 +63,7 @@ class Namespaces:
     """Those of a process of ours, which holds them; they end with it."""
 
     def __init__(self, *kinds):
-        self.flags = [kind for kind in kinds if kind != "-T"]
+        self.flags = [kind for kind in kinds if kind in ("-n", "-m", "-u", "-i", "-T")]
         # The holder ends with us even where we are killed.
         self.holder = subprocess.Popen(
             ["unshare", *kinds, "-p", "-f", "--kill-child", "--mount-proc", "--propagation",
@@ -83,8 +83,7 @@ class Namespaces:
         raise Skip("unshare starts no process")
 
     def enter(self):
-        flags = ["-n", "-m", "-u", "-i", "-p"]
-        return ["nsenter", "-t", str(self.pid), *flags]
+        return ["nsenter", "-t", str(self.pid), *self.flags, "-p"]
 
     def shell(self, script):
         done = subprocess.run([*self.enter(), "sh", "-ec", script], capture_output=True, text=True,

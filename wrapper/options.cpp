@@ -101,8 +101,10 @@ constexpr std::array rows{
             o.retries = whole(v, 0, "a number of retries: a whole number from 0");
         }},
     Row{faults, "lost-after", "S",
-        "seconds after which a rank that says nothing counts as lost, and the run ends", "15",
-        set_lost_after},
+        "with several hosts: seconds after which a rank that says nothing counts as lost, and the "
+        "run "
+        "ends",
+        "15", set_lost_after},
     Row{saying, "dry-run", nullptr, "print the plan and its predicted cost as JSON, and stop",
         nullptr, [](Options& o, const std::string&) { o.dry_run = true; }},
     Row{saying, "progress", "STYLE",

@@ -219,6 +219,9 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
         record.plan = plan.record;
         record.output = place.image();
         const auto now = [&clock] { return clock.seconds(); };
+        // On one host mpiexec itself sees it, and a busy machine must not look like a lost one.
+        const double lost_after_seconds =
+            setup.ranks_of_host == transport.size() ? 0 : options.lost_after_seconds;
         ProgressView progress(options.progress);
         for (const std::string& warning : probe.warnings) progress.say("POV-Ray: " + warning);
         for (const std::string& note : plan.notes) progress.say("mpipov: " + note);
@@ -236,7 +239,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
                                                   wave + 1, static_cast<int>(plan.waves.size()),
                                                   fraction, clock.seconds());
                                           },
-                                          options.lost_after_seconds},
+                                          lost_after_seconds},
                                          record, job.ranks);
         progress.begin_image(clock.seconds());
         coordinator.emplace(std::move(job), transport, canvas, journal ? &*journal : nullptr, now);
@@ -250,7 +253,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
                             progress.update(coordinator->fraction(), coordinator->sections_done(),
                                             coordinator->sections_total(), clock.seconds());
                         },
-                        options.lost_after_seconds});
+                        lost_after_seconds});
         progress.finish(coordinator->sections_total(), clock.seconds());
         coordinator->place_repairs();
 
