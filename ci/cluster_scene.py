@@ -30,7 +30,7 @@ FILES = {"job/scene.pov": SCENE, "lib/colours.inc": "#declare Glass = pigment { 
 FONT = Path("/usr/share/povray-3.7/include/cyrvetic.ttf")
 ARGUMENTS = ["scene.pov", "+L../lib", "+A0.1", "+R3", "--progress", "plain"]
 SMALL = ["+W160", "+H128"]
-LARGE = ["+W512", "+H384"]
+LARGE = ["+W256", "+H192"]
 RUN_SECONDS = 300
 WATCH_SECONDS = 0.1
 GONE_SECONDS = 2
