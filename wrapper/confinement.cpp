@@ -151,23 +151,41 @@ Confinement::Confinement(const Options& options, const HostResources& host, cons
     require_present("--allow-write", options.allow_write);
     std::error_code error;
     const fs::path run_folder = fs::current_path(error);
-    files_ = files_of_program(find_program(options.povray));
+    program_ = files_of_program(find_program(options.povray));
+    for (const fs::path& path : options.allow_read)
+        program_.read.push_back(fs::absolute(path, error));
+    for (const fs::path& path : options.allow_write)
+        program_.write.push_back(fs::absolute(path, error));
+    program_.read.push_back(own / "home");
+    files_ = program_;
     for (const fs::path& path :
          scene_folders({options.povray_arguments, run_folder, home, settings}))
         files_->read.push_back(path);
-    for (const fs::path& path : options.allow_read)
-        files_->read.push_back(fs::absolute(path, error));
-    for (const fs::path& path : options.allow_write)
-        files_->write.push_back(fs::absolute(path, error));
-    files_->read.push_back(own / "home");
-    searched_ = {run_folder};
-    for (const std::string& argument : options.povray_arguments)
-        for (const std::string& folder : library_paths_in(argument))
-            searched_.push_back(run_folder / folder);
+    search(run_folder, options.povray_arguments);
     writes_ = writes_of_scene(options.povray_arguments, {searched_.begin() + 1, searched_.end()});
     // Where it may write there anyway it does so as POV-Ray alone.
     for (const fs::path& folder : files_->write)
         if (lies_in(run_folder, folder)) writes_.any = false;
+}
+
+void Confinement::search(const fs::path& run_folder, const std::vector<std::string>& arguments) {
+    searched_ = {run_folder};
+    for (const std::string& argument : arguments)
+        for (const std::string& folder : library_paths_in(argument))
+            searched_.push_back(run_folder / folder);
+}
+
+Confinement Confinement::in_copy(const SceneCopy& copy) const {
+    Confinement confinement = *this;
+    confinement.run_folder_ = copy.run_folder;
+    std::erase_if(confinement.environment_, [](const auto& one) { return one.first == "POVINI"; });
+    confinement.environment_.emplace_back("POVINI", copy.settings.string());
+    if (!files_) return confinement;
+    confinement.files_ = program_;
+    confinement.files_->read.push_back(copy.root);
+    confinement.search(copy.run_folder, copy.arguments);
+    confinement.writes_ = writes_in_folder(copy.root);
+    return confinement;
 }
 
 std::string Confinement::note() const {
@@ -211,6 +229,7 @@ ChildRequest Confinement::request(LaunchNeeds needs) const {
     if (const std::uint64_t bytes = memory_limit(needs.threads)) request.memory_limit_bytes = bytes;
     request.file_size_limit_bytes = file_limit(needs);
     if (const auto bytes = folder_limit(needs)) request.folder_limit = {needs.folder, *bytes};
+    request.working_directory = run_folder_;
     if (!files_) return request;
     request.files = files_;
     request.files->write.push_back(needs.folder);

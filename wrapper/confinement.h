@@ -38,6 +38,14 @@ struct LaunchNeeds {
     std::vector<std::filesystem::path> reads = {};  // besides the scene's
 };
 
+// A scene that was sent to this host.
+struct SceneCopy {
+    std::filesystem::path root;          // all of it lies below
+    std::filesystem::path run_folder;    // where POV-Ray runs
+    std::filesystem::path settings;      // its povray.ini
+    std::vector<std::string> arguments;  // POV-Ray's
+};
+
 class Confinement {
   public:
     // None: POV-Ray as it is.
@@ -49,6 +57,10 @@ class Confinement {
     // cannot be written.
     Confinement(const Options& options, const HostResources& host,
                 const std::filesystem::path& own);
+
+    // The same for a scene that was sent here: what its user named lies in the copy, nothing else
+    // of this host is the scene's.
+    Confinement in_copy(const SceneCopy& copy) const;
 
     // The only way in which mpipov starts POV-Ray with a scene. A scene that writes files runs in a
     // folder of its launch that looks like ours. Throws std::filesystem::filesystem_error.
@@ -65,13 +77,16 @@ class Confinement {
     std::string way_out(std::string_view error) const;
 
   private:
+    void search(const std::filesystem::path& run_folder, const std::vector<std::string>& arguments);
     std::uint64_t memory_limit(int threads) const;
     std::optional<std::uint64_t> file_limit(const LaunchNeeds& needs) const;
     std::optional<std::uint64_t> folder_limit(const LaunchNeeds& needs) const;
     bool may_read(const std::filesystem::path& file) const;
 
     bool on_ = false, off_ = false;  // limits at all; files left alone because the user says so
+    FileAccess program_;             // what any scene may
     std::optional<FileAccess> files_;
+    std::filesystem::path run_folder_;  // of a copy; empty: ours
     std::vector<std::pair<std::string, std::string>> environment_;
     std::vector<std::filesystem::path> searched_;  // for names that are relative
     SceneWrites writes_;

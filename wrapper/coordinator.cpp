@@ -58,7 +58,7 @@ Coordinator::Coordinator(CoordinatorSetup setup, Transport& transport, Canvas& c
 }
 
 void Coordinator::start() {
-    const nlohmann::json head{
+    const nlohmann::json common{
         {"povray", setup_.job.povray},
         {"user_arguments", setup_.job.user_arguments},
         {"format_arguments", setup_.job.format_arguments},
@@ -68,10 +68,21 @@ void Coordinator::start() {
         {"height", setup_.image.height},
         {"gathers", setup_.gathers},
         {"cache_bytes", setup_.cache.size()},
+        {"copy", ""},
+        {"folder", ""},
+        {"ini", ""},
         {"timeout_seconds",
          setup_.timeout_seconds ? nlohmann::json(*setup_.timeout_seconds) : nlohmann::json()}};
-    for (int rank = 0; rank < static_cast<int>(setup_.ranks.size()); ++rank)
-        transport_.send({MessageKind::job, rank, head, {}});
+    for (std::size_t rank = 0; rank < setup_.ranks.size(); ++rank) {
+        nlohmann::json head = common;
+        if (const auto copy = setup_.shipped.copy_for(rank); !copy.empty()) {
+            head["user_arguments"] = setup_.shipped.arguments;
+            head["copy"] = copy.string();
+            head["folder"] = setup_.shipped.folder;
+            head["ini"] = setup_.shipped.ini;
+        }
+        transport_.send({MessageKind::job, static_cast<int>(rank), std::move(head), {}});
+    }
     feed_caches();
     assign_to_all();
 }

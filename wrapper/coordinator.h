@@ -8,6 +8,7 @@
 #include "povray_command.h"
 #include "run_record.h"
 #include "schedule.h"
+#include "shipped_scene.h"
 #include "stitch.h"
 #include "transport.h"
 
@@ -36,6 +37,7 @@ struct CoordinatorSetup {
     int widest_halo = 32;             // a seam whose overlap still disagrees then is left as it is
     std::string cache = {};           // of radiosity, which every launch reads; empty: none
     bool gathers = false;             // what comes back are radiosity samples, and no pixels
+    ShippedScene shipped = {};        // to ranks that do not have it
 };
 
 // Of a finished section, for the journal; Coordinator::resume() takes it back.
@@ -70,6 +72,9 @@ class Coordinator {
     // From 0 to 1, and never less than before: a section that failed or a seam that is rendered
     // again only holds it up.
     double fraction() const;
+    const std::string& host(int rank) const {
+        return setup_.ranks.at(static_cast<std::size_t>(rank)).host;
+    }
     int sections_done() const { return sections_done_; }
     int sections_total() const { return static_cast<int>(sections_.size()); }
 

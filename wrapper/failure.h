@@ -13,11 +13,15 @@ enum class Exit { ok = 0, differ = 1, usage = 2, scene = 3, file = 4, interrupte
 // Thrown anywhere, printed once by main, which exits with `code`.
 class Failure : public std::runtime_error {
   public:
-    Failure(Exit code, const std::string& what) : std::runtime_error(what), code_(code) {}
+    Failure(Exit code, const std::string& what, bool rank_lost = false)
+        : std::runtime_error(what), code_(code), rank_lost_(rank_lost) {}
     Exit code() const { return code_; }
+    // There is a rank that will not answer any more.
+    bool rank_lost() const { return rank_lost_; }
 
   private:
     Exit code_;
+    bool rank_lost_;
 };
 
 }  // namespace mpipov

@@ -48,9 +48,9 @@ std::string gather_radiosity(const GatherSetup& setup, const GatherContext& cont
                                 nothing, nullptr, context.clock);
         try {
             coordinator.start();
-            run_event_loop({context.transport, context.worker, &coordinator, [&] {
-                                context.progress(static_cast<int>(i), coordinator.fraction());
-                            }});
+            run_event_loop({context.transport, context.worker, &coordinator,
+                            [&] { context.progress(static_cast<int>(i), coordinator.fraction()); },
+                            context.lost_after_seconds});
         } catch (const Failure& failure) {
             if (failure.code() == Exit::interrupted) throw;
             throw Failure(failure.code(),

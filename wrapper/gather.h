@@ -31,6 +31,7 @@ struct GatherContext {
     std::function<double()> clock;  // seconds since the run began
     // Wave (from 0), how much of it is done (0 to 1).
     std::function<void(int wave, double fraction)> progress;
+    double lost_after_seconds = 0;  // EventLoop::lost_after_seconds
 };
 
 // The joined cache, the same bits for any number of ranks, schedule and order of events. Adds the

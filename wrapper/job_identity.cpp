@@ -2,6 +2,7 @@
 
 #include "journal.h"
 #include "scene_files.h"
+#include "scene_view.h"
 #include "sha1_digits.h"
 
 #include <OpenImageIO/hash.h>
@@ -39,16 +40,8 @@ json settings_of(const IniSettings& settings) {
 }
 
 json files_of(const Probe& probe, const std::vector<std::string>& arguments) {
-    SceneRequest request;
-    request.scene = probe.result.image.input_file;
-    request.options = arguments;
-    // POV-Ray reads one of them without being told to.
-    request.options.emplace_back("povray.ini");
-    for (const auto& [key, value] : probe.settings)
-        if (key == "Library_Path") request.library_paths.emplace_back(value);
-    request.output = probe.result.image.output_file;
     json files = json::object();
-    for (const std::filesystem::path& file : scene_files(request))
+    for (const std::filesystem::path& file : scene_files(scene_request(probe, arguments)))
         files[file.string()] = sha1_of_file(file);
     return files;
 }

@@ -8,6 +8,7 @@
 #include "printable.h"
 #include "probe.h"
 #include "render_job.h"
+#include "scene_view.h"
 #include "scratch.h"
 #include "slots.h"
 #include "standard_output.h"
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -88,15 +90,35 @@ Confinement confinement_of(const Options& options, const Self& self, const Scrat
     return {options, resources_of_host(cores), scratch.path()};
 }
 
+// Does not throw where nobody listens.
+void complain(const std::string& what) {
+    std::fputs(fmt::format("mpipov: {}\n", printable(what)).c_str(), stderr);
+}
+
+// For the last words of others; where one of them is lost; after a signal, when the user waits.
+constexpr double patience_seconds = 60, lost_seconds = 3, interrupted_seconds = 1;
+constexpr double no_limit = 1e9;
+
 void send_refusal(Transport& transport, const RankRecord& self, Exit code, const std::string& why) {
-    constexpr double patience_seconds = 10, interrupted_seconds = 1;
     transport.send({MessageKind::refused,
                     0,
                     {{"host", self.host}, {"why", why}, {"code", static_cast<int>(code)}},
                     {}});
-    // MPI must not be left with an unread message, and rank 0 will send one more.
-    while (const auto message = wait_for_message(transport, patience_seconds, interrupted_seconds))
+    // MPI must not be left with an unread message, and rank 0 will send one more, though not before
+    // its probe is over.
+    while (const auto message = wait_for_message(transport, no_limit, interrupted_seconds))
         if (message->kind == MessageKind::stop) return;
+}
+
+// MPI_Finalize would wait for a rank that does not answer, for ever where its host is gone.
+[[noreturn]] void abandon(const std::string& what) {
+    complain(what);
+    // MPI_Abort asks hydra on this host, which waits for mpiexec: on a host that is cut off the
+    // alarm ends us.
+    constexpr unsigned abort_seconds = 2;
+    ::alarm(abort_seconds);
+    MPI_Abort(MPI_COMM_WORLD, static_cast<int>(Exit::interrupted));
+    std::abort();  // MPI_Abort does not return
 }
 
 // What every rank but 0 does. Whatever stands in its way, rank 0 hears of it.
@@ -111,29 +133,26 @@ void serve(const Options& options, const Self& self, Transport& transport) {
                         {{"slots", record.slots},
                          {"pool", self.pool},
                          {"host", record.host},
+                         {"view", point_of_view()},
                          {"povray", povray}},
                         {}});
         run_event_loop({transport, worker});
     } catch (const Failure& failure) {
+        if (failure.rank_lost())
+            abandon(fmt::format("host {} (rank {}): {}", record.host, record.rank, failure.what()));
         send_refusal(transport, record, failure.code(), failure.what());
     } catch (const std::exception& error) {
         send_refusal(transport, record, Exit::interrupted, error.what());
     }
 }
 
-// Does not throw where nobody listens.
-void complain(const std::string& what) {
-    std::fputs(fmt::format("mpipov: {}\n", printable(what)).c_str(), stderr);
-}
-
 // Tells the other ranks to stop and hears them out: MPI must not be left with unread messages.
-// A user who interrupts does not wait for a rank that does not answer: false then.
-bool dismiss(Transport& transport) {
-    constexpr double patience_seconds = 10, interrupted_seconds = 1;
+// False where one of them does not answer.
+bool dismiss(Transport& transport, double seconds) {
     send_stops(transport);
     for (int waiting = transport.size() - 1; waiting > 0;) {
-        const auto message = wait_for_message(transport, patience_seconds, interrupted_seconds);
-        if (!message) return !interrupted();
+        const auto message = wait_for_message(transport, seconds, interrupted_seconds);
+        if (!message) return false;
         if (message->kind == MessageKind::bye) --waiting;
     }
     return true;
@@ -157,7 +176,8 @@ void coordinate(const Options& options, const std::vector<std::string>& argument
     run_job(setup, transport, worker);
 }
 
-int run(const std::vector<std::string>& arguments, int rank) {
+// `several_hosts` tells of the ranks once they have met.
+int run(const std::vector<std::string>& arguments, int rank, bool& several_hosts) {
     const Options options = parse_options(arguments);
     if (options.help || options.version || options.manual) {
         if (rank == 0 && options.help) print_result(help_text());
@@ -167,21 +187,28 @@ int run(const std::vector<std::string>& arguments, int rank) {
     }
     const Self self = about_this_rank(options, rank);
     MpiTransport transport;
+    several_hosts = self.ranks_of_host != transport.size();
     if (rank != 0) {
         serve(options, self, transport);
         transport.send({MessageKind::bye, 0, nlohmann::json::object(), {}});
+        if (!transport.part(2 * patience_seconds, several_hosts))
+            abandon(fmt::format("host {} (rank {}): the others did not come to the end",
+                                self.record.host, rank));
         return 0;
     }
+    const auto part = [&](double seconds, const std::string& what) {
+        if (!dismiss(transport, seconds) || !transport.part(seconds, several_hosts)) abandon(what);
+    };
     try {
         coordinate(options, arguments, self, transport);
+    } catch (const Failure& failure) {
+        part(failure.rank_lost() ? lost_seconds : patience_seconds, failure.what());
+        throw;
     } catch (const std::exception& error) {
-        if (!dismiss(transport)) {  // MPI_Finalize would wait for the rank too
-            complain(error.what());
-            MPI_Abort(MPI_COMM_WORLD, static_cast<int>(Exit::interrupted));
-        }
+        part(patience_seconds, error.what());
         throw;
     }
-    dismiss(transport);
+    part(patience_seconds, "a rank did not answer at the end; the image is complete");
     return 0;
 }
 
@@ -196,8 +223,9 @@ int main(int argc, char** argv) {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     int code = 0;
+    bool several_hosts = false;
     try {
-        code = run(std::vector<std::string>(argv + 1, argv + argc), rank);
+        code = run(std::vector<std::string>(argv + 1, argv + argc), rank, several_hosts);
     } catch (const Failure& failure) {
         // Of what every rank finds out by itself, one says it.
         if (rank == 0) complain(failure.what());
@@ -205,6 +233,13 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {
         complain(fmt::format("rank {}: {}", rank, error.what()));
         code = static_cast<int>(Exit::interrupted);
+    }
+    if (several_hosts) {
+        // All have parted (MpiTransport::part). Between hosts MPICH 4.0's MPI_Finalize can wait for
+        // ever: a rank that has closed its connections answers no other one that has not
+        // (docs/clusters.md).
+        std::fflush(nullptr);
+        std::_Exit(code);
     }
     MPI_Finalize();
     return code;

@@ -22,6 +22,12 @@ enum class MessageKind : unsigned char {
     cancelled,  // worker: its launch is gone; what it spent
     stop,       // coordinator: no more work
     refused,    // worker: this rank cannot render at all, or no more
+    alive,      // both: no more than that; when the sender will have spoken again
+    look,       // coordinator: which of the scene's files do you see?
+    seen,       // worker: these
+    pack,       // coordinator: a list of files; their bytes follow
+    piece,      // coordinator: some of those bytes, in the body
+    unpacked,   // worker: where they are
     bye,        // worker: its last message
 };
 

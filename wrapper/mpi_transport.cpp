@@ -1,8 +1,10 @@
 #include "mpi_transport.h"
 
 #include <mpi.h>
+#include <poll.h>
 #include <sched.h>
 
+#include <chrono>
 #include <deque>
 #include <list>
 #include <numeric>
@@ -113,6 +115,33 @@ std::size_t MpiTransport::unsent_bytes() {
     return std::accumulate(
         state_->sending.begin(), state_->sending.end(), std::size_t{0},
         [](std::size_t sum, const State::Sending& s) { return sum + s.bytes.size(); });
+}
+
+bool MpiTransport::part(double seconds, bool several_hosts) {
+    using Seconds = std::chrono::duration<double>;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto since = [&begin] {
+        return Seconds(std::chrono::steady_clock::now() - begin).count();
+    };
+    MPI_Request request = MPI_REQUEST_NULL;
+    check(MPI_Ibarrier(state_->comm, &request), "MPI_Ibarrier");
+    for (int met = 0; met == 0;) {
+        check(MPI_Test(&request, &met, MPI_STATUS_IGNORE), "MPI_Test");
+        if (met == 0 && since() > seconds) return false;
+        if (met == 0) ::poll(nullptr, 0, 1);
+    }
+    if (!several_hosts) return true;  // shared memory connects nothing
+    // On a busy machine time may pass without a look at the network.
+    constexpr double last_words_seconds = 0.1;
+    constexpr int looks = 50;
+    const double end = since() + last_words_seconds;
+    for (int look = 0; look < looks || since() < end; ++look) {
+        int found = 0;
+        check(MPI_Iprobe(MPI_ANY_SOURCE, message_tag, state_->comm, &found, MPI_STATUS_IGNORE),
+              "MPI_Iprobe");
+        ::poll(nullptr, 0, 1);
+    }
+    return true;
 }
 
 HostShare host_share() {

@@ -22,6 +22,11 @@ class MpiTransport : public Transport {
     std::optional<Message> try_receive() override;
     std::size_t unsent_bytes() override;
 
+    // The last thing that is done with it, by all ranks: waits for each other, and between hosts
+    // lets what MPI itself has to say arrive, so that a rank may end without MPI_Finalize. False
+    // where some rank does not come within `seconds`; MPI_Finalize would not return then.
+    bool part(double seconds, bool several_hosts);
+
   private:
     struct State;
     std::unique_ptr<State> state_;

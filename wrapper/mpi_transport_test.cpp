@@ -177,6 +177,26 @@ TEST_F(MpiTransportTest, TransportsAreApart) {
     EXPECT_TRUE(all_sent(other));
 }
 
+TEST_F(MpiTransportTest, AllPart) {
+    MpiTransport other;
+    EXPECT_TRUE(transport_.part(60, false));
+    EXPECT_TRUE(other.part(60, true));
+}
+
+// The last rank comes later than the others wait.
+TEST_F(MpiTransportTest, NobodyPartsFromARankThatDoesNotCome) {
+    if (size() == 1) return;
+    MpiTransport other;
+    if (rank() != size() - 1) {
+        EXPECT_FALSE(other.part(0.2, false));
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (rank() == size() - 1) {
+        other.part(60, false);
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+}
+
 TEST(HostShare, NamesEveryRankOfThisHostAndItsCores) {
     const HostShare share = host_share();
     EXPECT_GE(share.local_rank, 0);

@@ -99,6 +99,17 @@ void set_schedule(Options& o, const std::string& value) {
     bad_value(value, "one of static, dynamic, cost");
 }
 
+void set_ship(Options& o, const std::string& value) {
+    if (value == "auto")
+        o.ship = Ship::automatic;
+    else if (value == "on")
+        o.ship = Ship::on;
+    else if (value == "off")
+        o.ship = Ship::off;
+    else
+        bad_value(value, "one of auto, on, off");
+}
+
 void set_progress(Options& o, const std::string& value) {
     if (value == "auto")
         o.progress = ProgressStyle::automatic;
@@ -110,21 +121,30 @@ void set_progress(Options& o, const std::string& value) {
         bad_value(value, "one of auto, plain, none");
 }
 
-void set_timeout(Options& o, const std::string& value) {
-    if (value == "auto") {
-        o.timeout_seconds.reset();
-        return;
-    }
+namespace {
+
+// `wanted` finishes "'x' is not ...".
+double positive_seconds(const std::string& value, const char* wanted) {
     std::size_t used = 0;
     double seconds = 0;
     try {
         seconds = std::stod(value, &used);
     } catch (const std::exception&) {
-        bad_value(value, "auto or a number of seconds");
+        bad_value(value, wanted);
     }
-    if (used != value.size() || !(seconds > 0) || !std::isfinite(seconds))
-        bad_value(value, "auto or a number of seconds");
-    o.timeout_seconds = seconds;
+    if (used != value.size() || !(seconds > 0) || !std::isfinite(seconds)) bad_value(value, wanted);
+    return seconds;
+}
+
+}  // namespace
+
+void set_lost_after(Options& o, const std::string& value) {
+    o.lost_after_seconds = positive_seconds(value, "a number of seconds");
+}
+
+void set_timeout(Options& o, const std::string& value) {
+    o.timeout_seconds.reset();
+    if (value != "auto") o.timeout_seconds = positive_seconds(value, "auto or a number of seconds");
 }
 
 void set_confine(Options& o, const std::string& value) {

@@ -18,7 +18,9 @@ void set_seams(Options& options, const std::string& value);
 void set_shape(Options& options, const std::string& value);
 void set_radiosity(Options& options, const std::string& value);
 void set_schedule(Options& options, const std::string& value);
+void set_ship(Options& options, const std::string& value);
 void set_progress(Options& options, const std::string& value);
+void set_lost_after(Options& options, const std::string& value);
 void set_timeout(Options& options, const std::string& value);
 void set_confine(Options& options, const std::string& value);
 // "auto", "none" or bytes: 512M, 1.5G (powers of 1024).

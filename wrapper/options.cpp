@@ -82,6 +82,10 @@ constexpr std::array rows{
         }},
     Row{sharing, "dedicated-coordinator", nullptr, "rank 0 renders nothing, as in MPIPOV2", nullptr,
         [](Options& o, const std::string&) { o.dedicated_coordinator = true; }},
+    Row{files, "ship", "WHEN",
+        "whether a packed copy of the scene, with the files that it names, is sent to other hosts: "
+        "on, off, or auto: where a host lacks one of the files or has another one of that name",
+        "auto", set_ship},
     Row{files, "record", "FILE", "where the record of the run goes", "run.json beside the image",
         [](Options& o, const std::string& v) { o.record = v; }},
     Row{files, "work-dir", "DIR", "where finished sections are kept until the image is complete",
@@ -117,6 +121,11 @@ constexpr std::array rows{
         [](Options& o, const std::string& v) {
             o.retries = whole(v, 0, "a number of retries: a whole number from 0");
         }},
+    Row{faults, "lost-after", "S",
+        "with several hosts: seconds after which a rank that says nothing counts as lost, and the "
+        "run "
+        "ends",
+        "15", set_lost_after},
     Row{saying, "dry-run", nullptr, "print the plan and its predicted cost as JSON, and stop",
         nullptr, [](Options& o, const std::string&) { o.dry_run = true; }},
     Row{saying, "progress", "STYLE",

@@ -4,6 +4,7 @@
 #include "radiosity_sharing.h"
 #include "schedule.h"
 #include "section.h"
+#include "shipped_scene.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -37,10 +38,12 @@ struct Options {
     std::optional<int> in_flight;
     std::optional<int> slots;
     bool dedicated_coordinator = false;
+    Ship ship = Ship::automatic;
     std::filesystem::path work_dir;  // empty: beside the output
     bool resume = false;
     std::optional<double> timeout_seconds;
     int retries = 2;
+    double lost_after_seconds = 15;
     bool dry_run = false;
     ProgressStyle progress = ProgressStyle::automatic;
     Confining confine = Confining::automatic;

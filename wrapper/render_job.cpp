@@ -19,7 +19,9 @@
 #include "resume.h"
 #include "run_setup.h"
 #include "scene_plan.h"
+#include "scene_view.h"
 #include "scratch.h"
+#include "ship_scene.h"
 #include "standard_output.h"
 
 #include <fmt/chrono.h>
@@ -52,9 +54,11 @@ class RunClock {
 
 MetRanks meet_ranks(const JobSetup& setup, Transport& transport, const std::string& povray) {
     const auto size = static_cast<std::size_t>(transport.size());
-    MetRanks met{std::vector<RankRecord>(size), std::vector<int>(size)};
+    MetRanks met{std::vector<RankRecord>(size), std::vector<int>(size),
+                 std::vector<std::string>(size)};
     met.ranks[0] = setup.rank0;
     met.pools[0] = setup.pool0;
+    met.views[0] = point_of_view();
     for (int missing = transport.size() - 1; missing > 0; --missing) {
         const auto message = wait_for_message(transport, hello_seconds);
         throw_if_interrupted();
@@ -76,6 +80,7 @@ MetRanks meet_ranks(const JobSetup& setup, Transport& transport, const std::stri
         met.ranks.at(peer) = {message->peer, host, int_from_json(head.at("slots"), 0, most_cores),
                               0, 0};
         met.pools.at(peer) = int_from_json(head.at("pool"), 0, most_cores);
+        met.views.at(peer) = head.at("view");
     }
     if (setup.options.dedicated_coordinator) met.ranks[0].slots = 0;
     return met;
@@ -111,6 +116,20 @@ std::optional<Journal> begin_journal(const Options& options, const OutputPlace& 
     if (options.resume) return Journal::open(place.work_folder(), identity);
     if (plan.record.sections == 1 && plan.waves.empty()) return {};
     return Journal::create(place.work_folder(), identity, to_json(plan.record));
+}
+
+// So that every rank can render.
+Shipping bring_scene_to_all(const Options& options, const std::vector<std::string>& arguments,
+                            const Probe& probe, const MetRanks& met, Transport& transport) {
+    ShipRequest request{options.ship, scene_request(probe, arguments), arguments, {}};
+    // A radiosity cache of the user's, which the scene does not name.
+    if (probe.result.own_cache)
+        for (const auto& [key, value] : probe.settings)
+            if (key == "Radiosity_File_Name")
+                request.scene.options.push_back(fmt::format("+I\"{}\"", value));
+    for (std::size_t rank = 0; rank < met.ranks.size(); ++rank)
+        request.ranks.push_back({met.ranks[rank].host, met.views[rank]});
+    return ship_scene(request, transport);
 }
 
 // What it costs to know is part of the run.
@@ -194,6 +213,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     place.check();
 
     Canvas canvas = make_canvas(plan.record);
+    const Shipping shipping = bring_scene_to_all(options, arguments, probe, met, transport);
     std::optional<Journal> journal = begin_journal(options, place, identity, plan);
     std::optional<Coordinator> coordinator;
     try {
@@ -201,12 +221,20 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
         record.plan = plan.record;
         record.output = place.image();
         const auto now = [&clock] { return clock.seconds(); };
+        // On one host mpiexec itself sees it, and a busy machine must not look like a lost one.
+        const double lost_after_seconds =
+            setup.ranks_of_host == transport.size() ? 0 : options.lost_after_seconds;
         ProgressView progress(options.progress);
         for (const std::string& warning : probe.warnings) progress.say("POV-Ray: " + warning);
         for (const std::string& note : plan.notes) progress.say("mpipov: " + note);
         if (const std::string note = worker.confinement().note(); !note.empty())
             progress.inform("mpipov: " + note);
+        if (!shipping.hosts.empty())
+            progress.inform(fmt::format("mpipov: sent the scene ({} files, {:.1f} MB) to {}",
+                                        shipping.files, static_cast<double>(shipping.bytes) * 1e-6,
+                                        fmt::join(shipping.hosts, ", ")));
         CoordinatorSetup job = coordinator_setup(options, arguments, probe, plan, met.ranks);
+        job.shipped = shipping.scene;
         if (!plan.waves.empty())
             job.cache = gather_radiosity(gather_setup(options, job, plan, probe),
                                          {transport, worker, journal ? &*journal : nullptr, now,
@@ -214,7 +242,8 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
                                               progress.update_gathering(
                                                   wave + 1, static_cast<int>(plan.waves.size()),
                                                   fraction, clock.seconds());
-                                          }},
+                                          },
+                                          lost_after_seconds},
                                          record, job.ranks);
         progress.begin_image(clock.seconds());
         coordinator.emplace(std::move(job), transport, canvas, journal ? &*journal : nullptr, now);
@@ -223,10 +252,12 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
                                         take_finished_sections(*coordinator, *journal),
                                         plan.record.sections));
         coordinator->start();
-        run_event_loop({transport, worker, &*coordinator, [&] {
+        run_event_loop({transport, worker, &*coordinator,
+                        [&] {
                             progress.update(coordinator->fraction(), coordinator->sections_done(),
                                             coordinator->sections_total(), clock.seconds());
-                        }});
+                        },
+                        lost_after_seconds});
         progress.finish(coordinator->sections_total(), clock.seconds());
         coordinator->place_repairs();
 

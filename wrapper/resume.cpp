@@ -91,13 +91,15 @@ Failure end_of_run(const std::exception& error, Journal* journal, const Coordina
         return {failure.code(),
                 fmt::format("{}; {} of {} sections are kept in '{}': go on with --resume",
                             failure.what(), done, coordinator->sections_total(),
-                            journal->folder().string())};
+                            journal->folder().string()),
+                failure.rank_lost()};
     if (const int waves = journal->cache().waves; waves > 0)
         return {
             failure.code(),
             fmt::format("{}; the radiosity cache of {} wave{} is kept in '{}': go on with "
                         "--resume",
-                        failure.what(), waves, waves == 1 ? "" : "s", journal->folder().string())};
+                        failure.what(), waves, waves == 1 ? "" : "s", journal->folder().string()),
+            failure.rank_lost()};
     if (!resumed) journal->remove();
     return failure;
 }

@@ -15,7 +15,8 @@ namespace mpipov {
 
 struct MetRanks {
     std::vector<RankRecord> ranks;
-    std::vector<int> pools;  // PlanRequest::pools
+    std::vector<int> pools;          // PlanRequest::pools
+    std::vector<std::string> views;  // point_of_view() of each
 };
 
 PlanRequest plan_request(const Options& options, const MetRanks& met, int early_threads);

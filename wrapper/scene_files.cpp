@@ -154,14 +154,6 @@ std::string text_of(const fs::path& file) {
     return text.find('\0') == std::string::npos ? text : std::string();
 }
 
-// .../share/povray-3.7/...: a user's folder may be called povray-3.7 too.
-bool is_povrays_own(const fs::path& file) {
-    const auto own = [](const fs::path& folder, const fs::path& inside) {
-        return folder == "share" && inside.string().rfind("povray-3.", 0) == 0;
-    };
-    return std::adjacent_find(file.begin(), file.end(), own) != file.end();
-}
-
 class Search {
   public:
     explicit Search(const SceneRequest& request) {
@@ -180,8 +172,13 @@ class Search {
             const fs::path file = to_scan_.front();
             to_scan_.pop_front();
             const bool ini = lower(file.extension().string()) == ".ini";
+            in_text_ = !ini;
             look_for_all(ini ? names_in_ini(text_of(file)) : names_in_scene(text_of(file)));
         }
+    }
+
+    SceneNames all_names() const {
+        return {{named_.begin(), named_.end()}, {absolute_.begin(), absolute_.end()}};
     }
 
     std::vector<fs::path> files() const {
@@ -199,6 +196,7 @@ class Search {
 
     void look_for(const std::string& name) {
         if (name.empty()) return;
+        absolute_name_ = in_text_ && fs::path(name).is_absolute();
         const bool bare = !fs::path(name).has_extension();
         for (const fs::path& folder : folders_) {
             const fs::path file = (folder / name).lexically_normal();
@@ -216,6 +214,8 @@ class Search {
         if (!fs::is_regular_file(file, error)) return;
         const fs::path canonical = fs::canonical(file, error);
         if (error || canonical == output_ || is_povrays_own(canonical)) return;
+        named_.insert(file);
+        if (absolute_name_) absolute_.insert(file);
         if (files_.emplace(canonical, file).second) to_scan_.push_back(file);
     }
 
@@ -224,6 +224,8 @@ class Search {
     std::set<std::string> names_;         // looked for already
     std::map<fs::path, fs::path> files_;  // canonical -> as it was named
     std::deque<fs::path> to_scan_;
+    std::set<fs::path> named_, absolute_;
+    bool in_text_ = false, absolute_name_ = false;  // what is looked for
 };
 
 }  // namespace
@@ -265,6 +267,17 @@ std::vector<std::string> names_in_option(std::string_view option) {
 
 std::vector<std::filesystem::path> scene_files(const SceneRequest& request) {
     return Search(request).files();
+}
+
+SceneNames scene_names(const SceneRequest& request) {
+    return Search(request).all_names();
+}
+
+bool is_povrays_own(const std::filesystem::path& file) {
+    const auto own = [](const fs::path& folder, const fs::path& inside) {
+        return folder == "share" && inside.string().rfind("povray-3.", 0) == 0;
+    };
+    return std::adjacent_find(file.begin(), file.end(), own) != file.end();
 }
 
 }  // namespace mpipov

@@ -36,4 +36,16 @@ struct SceneRequest {
 // cannot be read is left out; throws nothing but std::bad_alloc.
 std::vector<std::filesystem::path> scene_files(const SceneRequest& request);
 
+// The same by every name that leads to one of them, links not followed: where a copy must have it.
+struct SceneNames {
+    std::vector<std::filesystem::path> all;
+    // Of those the absolute ones that stand so in the text of a scene or of what it includes.
+    std::vector<std::filesystem::path> absolute_in_text;
+};
+SceneNames scene_names(const SceneRequest& request);
+
+// .../share/povray-3.7/...: POV-Ray's own folders, for which its version stands. A user's folder
+// may be called povray-3.7 too.
+bool is_povrays_own(const std::filesystem::path& file);
+
 }  // namespace mpipov

@@ -51,18 +51,32 @@ SceneWrites writes_in(std::string_view text) {
     return writes;
 }
 
+namespace {
+
+void take_file(const fs::path& file, SceneWrites& all) {
+    std::error_code error;
+    if (fs::file_size(file, error) > most_scanned_bytes || error) return;
+    std::ifstream in(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    SceneWrites one = writes_in(text);
+    all.any = all.any || one.any;
+    std::move(one.names.begin(), one.names.end(), std::back_inserter(all.names));
+}
+
+}  // namespace
+
 SceneWrites writes_of_scene(const std::vector<std::string>& arguments,
                             const std::vector<fs::path>& library_paths) {
     SceneWrites all;
-    for (const fs::path& file : scene_files({{}, arguments, library_paths, {}})) {
-        std::error_code error;
-        if (fs::file_size(file, error) > most_scanned_bytes || error) continue;
-        std::ifstream in(file, std::ios::binary);
-        const std::string text{std::istreambuf_iterator<char>(in), {}};
-        SceneWrites one = writes_in(text);
-        all.any = all.any || one.any;
-        std::move(one.names.begin(), one.names.end(), std::back_inserter(all.names));
-    }
+    for (const fs::path& file : scene_files({{}, arguments, library_paths, {}}))
+        take_file(file, all);
+    return all;
+}
+
+SceneWrites writes_in_folder(const fs::path& folder) {
+    SceneWrites all;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) take_file(entry.path(), all);
     return all;
 }
 

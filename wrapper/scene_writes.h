@@ -20,6 +20,9 @@ SceneWrites writes_in(std::string_view text);
 SceneWrites writes_of_scene(const std::vector<std::string>& arguments,
                             const std::vector<std::filesystem::path>& library_paths);
 
+// Of all files below `folder`, which holds nothing but a scene.
+SceneWrites writes_in_folder(const std::filesystem::path& folder);
+
 // Makes `folder` look like `original` to a program that runs in it: with a link to everything that
 // lies there. What the scene writes there stays in `folder`: of those names it gets copies. Names
 // that begin with ../ lead elsewhere. Throws std::filesystem::filesystem_error.

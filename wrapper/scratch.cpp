@@ -22,6 +22,8 @@ ScratchFolder::ScratchFolder(const std::string& purpose) {
             fmt::format("the temporary folder '{}' has a quotation mark in its name, which "
                         "POV-Ray cannot be told: set TMPDIR to another one",
                         base.string()));
+    // POV-Ray may run in another folder than ours.
+    base = std::filesystem::absolute(base);
     std::string name = (base / fmt::format("mpipov-{}-XXXXXX", purpose)).string();
     if (mkdtemp(name.data()) == nullptr)
         throw Failure(Exit::file, fmt::format("cannot make a temporary folder in '{}': {}",

@@ -45,6 +45,11 @@ void Worker::handle(const Message& message) {
         case MessageKind::cache:
             cache_.take(message.body);
             break;
+        case MessageKind::look:
+        case MessageKind::pack:
+        case MessageKind::piece:
+            take_scene(message);
+            break;
         case MessageKind::assign:
             start(message);
             break;
@@ -70,6 +75,12 @@ void Worker::take_job(const nlohmann::json& head) {
     gathers_ = head.at("gathers");
     job_ = {head.at("povray"),  head.at("user_arguments"), head.at("format_arguments"),
             head.at("threads"), head.at("block"),          cache_.file()};
+    const std::filesystem::path copy = head.at("copy").get<std::string>();
+    launch_confinement_ =
+        copy.empty()
+            ? confinement_
+            : confinement_.in_copy({copy, copy / head.at("folder").get<std::string>(),
+                                    copy / head.at("ini").get<std::string>(), job_.user_arguments});
     timeout_seconds_.reset();
     if (!head.at("timeout_seconds").is_null())
         timeout_seconds_ = head.at("timeout_seconds").get<double>();
@@ -127,7 +138,7 @@ PreparedLaunch Worker::launch(const Section& section, int attempt) {
             section_command(job_, section.render, image_, folder.path() / section_image_name);
     }
     if (!job_.radiosity_cache.empty()) needs.reads.push_back(job_.radiosity_cache);
-    return {std::move(folder), ChildProcess::start(confinement_.request(std::move(needs)))};
+    return {std::move(folder), ChildProcess::start(launch_confinement_.request(std::move(needs)))};
 }
 
 void Worker::adopt(int section, PreparedLaunch launch) {
@@ -182,7 +193,7 @@ Worker::State Worker::end_broken(Launch& launch) {
     // POV-Ray may also end well though its file had no room.
     send_failure(launch, launch.child.result().exit_code == 0
                              ? blame_full_disk({launch.broken, launch.code}, place_of(launch))
-                             : launch_failure(launch.child, confinement_, place_of(launch)));
+                             : launch_failure(launch.child, launch_confinement_, place_of(launch)));
     return State::over;
 }
 
@@ -206,7 +217,7 @@ Worker::State Worker::end_cancelled(Launch& launch) {
 
 Worker::State Worker::begin_reading(Launch& launch) {
     if (launch.child.ended() && launch.child.result().exit_code != 0) {
-        send_failure(launch, launch_failure(launch.child, confinement_, place_of(launch)));
+        send_failure(launch, launch_failure(launch.child, launch_confinement_, place_of(launch)));
         return State::over;
     }
     if (gathers_)

@@ -12,6 +12,7 @@
 #include "launch_failure.h"
 #include "povray_command.h"
 #include "prepared_launch.h"
+#include "received_scene.h"
 #include "section.h"
 #include "transport.h"
 
@@ -72,6 +73,7 @@ class Worker {
     enum class State { busy, idle, over };
 
     void take_job(const nlohmann::json& head);
+    void take_scene(const Message& message);
     void start(const Message& message);
     PreparedLaunch launch(const Section& section, int attempt);
     State step(Launch& launch);
@@ -89,11 +91,13 @@ class Worker {
     Transport& transport_;
     std::filesystem::path scratch_;
     Confinement confinement_;
+    Confinement launch_confinement_;  // of the job: the same, or in a copy of the scene
     JobCommand job_;
     ImageSize image_;
     int jobs_ = 0;  // so far
     bool gathers_ = false;
     ReceivedCache cache_;  // of the job
+    ReceivedScene scene_;
     std::optional<double> timeout_seconds_;
     std::list<Launch> launches_;
     std::list<PreparedLaunch> leaving_;  // have done their work, and sleep before they end

@@ -51,6 +51,8 @@ class WorkerTest : public FakePovrayTest {
                 {"height", size.height},
                 {"gathers", false},
                 {"cache_bytes", 0},
+                {"folder", ""},
+                {"ini", ""},
                 {"timeout_seconds", 30}};
     }
 
