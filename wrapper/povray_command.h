@@ -35,7 +35,6 @@ struct JobCommand {
     // A radiosity cache that every launch reads; empty: none of ours.
     std::filesystem::path radiosity_cache = {};
 };
-};
 
 // The whole argv. `output_base` is the section's own: POV-Ray names the image and its .pov-state
 // after it, and must not contain a quotation mark.
