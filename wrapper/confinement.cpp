@@ -234,11 +234,8 @@ ChildRequest Confinement::request(LaunchNeeds needs) const {
     request.files = files_;
     request.files->write.push_back(needs.folder);
     if (writes_.any) {
-        const fs::path& run_folder = searched_.front();
-        request.working_directory = needs.folder / "run";
-        make_writable_view(request.working_directory, run_folder, writes_.names);
-        // For names that lead out of it.
-        request.argv.push_back(fmt::format("+L\"{}\"", run_folder.string()));
+        request.working_directory =
+            make_writable_view(needs.folder / "view", searched_.front(), writes_.names);
     }
     request.files->read.insert(request.files->read.end(), needs.reads.begin(), needs.reads.end());
     return request;

@@ -158,14 +158,34 @@ TEST_F(ConfinementTest, LimitsWhatALaunchWrites) {
     EXPECT_EQ(request.file_size_limit_bytes, 5 * mib);
 }
 
+TEST_F(ConfinementTest, OfASceneThatWasSentHereOnlyTheCopyIsRead) {
+    fs::create_directories(at("copy/job"));
+    std::ofstream(at("copy/job/scene.pov")) << "sphere { 0, 1 }\n";
+    const ChildRequest request =
+        confinement()
+            .in_copy({at("copy"), at("copy/job"), at("copy/povray.ini"), {"scene.pov"}})
+            .request(needs());
+    EXPECT_EQ(request.working_directory, at("copy/job"));
+    EXPECT_THAT(request.environment, Contains(Pair("POVINI", at("copy/povray.ini").string())));
+    if (!can_restrict_files()) GTEST_SKIP() << "this kernel has no Landlock";
+    EXPECT_THAT(request.files.value().read, Contains(at("copy")));
+    EXPECT_THAT(request.files.value().read, Not(Contains(at("work"))));
+    std::ofstream(at("copy/job/scene.pov")) << "#fopen F \"a.txt\" write\n";
+    EXPECT_EQ(confinement()
+                  .in_copy({at("copy"), at("copy/job"), {}, {"scene.pov"}})
+                  .request(needs())
+                  .working_directory,
+              at("launch/view") / fs::canonical(at("copy/job")).relative_path());
+}
+
 TEST_F(ConfinementTest, ASceneThatWritesRunsInAFolderOfItsLaunch) {
     if (!can_restrict_files()) GTEST_SKIP() << "this kernel has no Landlock";
     std::ofstream(at("work/scene.pov")) << "#fopen F \"a.txt\" write\n";
     const ChildRequest request = confinement().request(needs());
-    EXPECT_EQ(request.working_directory, at("launch/run"));
+    EXPECT_EQ(request.working_directory,
+              at("launch/view") / fs::canonical(at("work")).relative_path());
     EXPECT_THAT(confinement().note(), HasSubstr("--allow-write"));
-    EXPECT_TRUE(fs::exists(at("launch/run/scene.pov")));
-    EXPECT_THAT(request.argv, Contains("+L\"" + at("work").string() + "\""));
+    EXPECT_TRUE(fs::exists(request.working_directory / "scene.pov"));
     options_.allow_write = {"."};
     EXPECT_TRUE(confinement().request(needs()).working_directory.empty())
         << "it may write into the folder of the run";

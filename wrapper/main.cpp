@@ -87,7 +87,15 @@ Self about_this_rank(const Options& options, int rank) {
 
 Confinement confinement_of(const Options& options, const Self& self, const ScratchFolder& scratch) {
     const int cores = std::max(self.pool, self.record.slots * self.ranks_of_host);
-    return {options, resources_of_host(cores), scratch.path()};
+    Options seen_here = options;
+    // Another host need not have what the user allows: the scene may be sent there.
+    if (self.record.rank != 0)
+        for (auto* allowed : {&seen_here.allow_read, &seen_here.allow_write})
+            std::erase_if(*allowed, [](const std::filesystem::path& path) {
+                std::error_code error;
+                return !std::filesystem::exists(path, error);
+            });
+    return {seen_here, resources_of_host(cores), scratch.path()};
 }
 
 // Does not throw where nobody listens.

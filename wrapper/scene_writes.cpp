@@ -80,9 +80,33 @@ SceneWrites writes_in_folder(const fs::path& folder) {
     return all;
 }
 
-void make_writable_view(const fs::path& folder, const fs::path& original,
-                        const std::vector<std::string>& written) {
-    fs::create_directory(folder);
+namespace {
+
+// Links in `at` to all that lies in `original` but `way`.
+void link_all_but(const fs::path& at, const fs::path& original, const fs::path& way) {
+    constexpr int most_links = 4096;
+    std::error_code error;
+    std::vector<fs::path> names;
+    for (fs::directory_iterator entry(original, error), end; !error && entry != end;
+         entry.increment(error)) {
+        if (names.size() >= most_links) return;
+        if (entry->path().filename() != way) names.push_back(entry->path().filename());
+    }
+    for (const fs::path& name : names) fs::create_symlink(original / name, at / name, error);
+}
+
+}  // namespace
+
+fs::path make_writable_view(const fs::path& folder, const fs::path& original,
+                            const std::vector<std::string>& written) {
+    fs::path at = folder, seen = "/";
+    fs::create_directory(at);
+    for (const fs::path& way : fs::canonical(original).relative_path()) {
+        link_all_but(at, seen, way);
+        at /= way;
+        seen /= way;
+        fs::create_directory(at);
+    }
     for (const auto& entry : fs::directory_iterator(original)) {
         const std::string name = entry.path().filename().string();
         std::error_code error;
@@ -90,10 +114,11 @@ void make_writable_view(const fs::path& folder, const fs::path& original,
                             entry.is_regular_file(error) &&
                             entry.file_size(error) <= most_copied_bytes;
         if (copied)
-            fs::copy_file(entry.path(), folder / name, error);
+            fs::copy_file(entry.path(), at / name, error);
         else
-            fs::create_symlink(entry.path(), folder / name, error);
+            fs::create_symlink(entry.path(), at / name, error);
     }
+    return at;
 }
 
 }  // namespace mpipov

@@ -23,10 +23,13 @@ SceneWrites writes_of_scene(const std::vector<std::string>& arguments,
 // Of all files below `folder`, which holds nothing but a scene.
 SceneWrites writes_in_folder(const std::filesystem::path& folder);
 
-// Makes `folder` look like `original` to a program that runs in it: with a link to everything that
-// lies there. What the scene writes there stays in `folder`: of those names it gets copies. Names
-// that begin with ../ lead elsewhere. Throws std::filesystem::filesystem_error.
-void make_writable_view(const std::filesystem::path& folder, const std::filesystem::path& original,
-                        const std::vector<std::string>& written);
+// Makes `folder` look like the whole file system to a program that runs in the path that is
+// returned: there lies a link to everything that lies in `original`, and so do links beside each
+// folder that leads to it, so that names which begin with ../ mean the same (not beside more than
+// 4096 others). What the scene writes there stays in `folder`: of those names it gets copies.
+// Throws std::filesystem::filesystem_error.
+std::filesystem::path make_writable_view(const std::filesystem::path& folder,
+                                         const std::filesystem::path& original,
+                                         const std::vector<std::string>& written);
 
 }  // namespace mpipov

@@ -53,12 +53,16 @@ TEST(SceneWrites, OfASceneAreThoseOfItsIncludesToo) {
 
 TEST(WritableView, ShowsWhatIsThereAndKeepsWhatIsWritten) {
     const ScratchFolder folder("writes-test");
-    const fs::path original = folder.path() / "original", view = folder.path() / "view";
+    const fs::path original = folder.path() / "original";
     fs::create_directories(original / "parts");
     std::ofstream(original / "parts/a.inc") << "a";
     std::ofstream(original / "scene.pov") << "scene";
     std::ofstream(original / "log.txt") << "old";
-    make_writable_view(view, original, {"log.txt", "new.txt"});
+    fs::create_directories(folder.path() / "library");
+    std::ofstream(folder.path() / "library/b.inc") << "b";
+    const fs::path view =
+        make_writable_view(folder.path() / "view", original, {"log.txt", "new.txt"});
+    EXPECT_EQ(text_of(view / "../library/b.inc"), "b") << "as +L../library finds it";
     EXPECT_EQ(text_of(view / "scene.pov"), "scene");
     EXPECT_EQ(text_of(view / "parts/a.inc"), "a");
     EXPECT_EQ(text_of(view / "parts/../scene.pov"), "scene");
@@ -68,7 +72,8 @@ TEST(WritableView, ShowsWhatIsThereAndKeepsWhatIsWritten) {
     EXPECT_EQ(text_of(view / "log.txt"), "old and new");
     EXPECT_EQ(text_of(original / "log.txt"), "old");
     EXPECT_FALSE(fs::exists(original / "new.txt"));
-    fs::remove_all(view);
+    fs::remove_all(folder.path() / "view");
+    EXPECT_EQ(text_of(folder.path() / "library/b.inc"), "b");
     EXPECT_EQ(text_of(original / "parts/a.inc"), "a");
 }
 

@@ -51,6 +51,7 @@ class WorkerTest : public FakePovrayTest {
                 {"height", size.height},
                 {"gathers", false},
                 {"cache_bytes", 0},
+                {"copy", ""},
                 {"folder", ""},
                 {"ini", ""},
                 {"timeout_seconds", 30}};
