@@ -1,6 +1,7 @@
 // mpipov: parses the command line, and runs the coordinator (rank 0) and a worker (every rank).
 #include "event_loop.h"
 #include "failure.h"
+#include "hydra.h"
 #include "interrupt.h"
 #include "mpi_transport.h"
 #include "options.h"
@@ -229,6 +230,7 @@ int main(int argc, char** argv) {
         // All have parted (MpiTransport::part). Between hosts MPICH 4.0's MPI_Finalize can wait for
         // ever: a rank that has closed its connections answers no other one that has not
         // (docs/clusters.md).
+        take_leave_of_hydra();
         std::fflush(nullptr);
         std::_Exit(code);
     }
