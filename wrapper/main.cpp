@@ -2,6 +2,7 @@
 #include "confinement.h"
 #include "event_loop.h"
 #include "failure.h"
+#include "hydra.h"
 #include "interrupt.h"
 #include "mpi_transport.h"
 #include "options.h"
@@ -246,6 +247,7 @@ int main(int argc, char** argv) {
         // All have parted (MpiTransport::part). Between hosts MPICH 4.0's MPI_Finalize can wait for
         // ever: a rank that has closed its connections answers no other one that has not
         // (docs/clusters.md).
+        take_leave_of_hydra();
         std::fflush(nullptr);
         std::_Exit(code);
     }
