@@ -23,7 +23,8 @@ CONDITIONING = """## Conditioning
 
 `mpipov-validate stability SCENE` renders a scene serially as it is and with the camera's place multiplied by
 1 + 1e-12, 1 + 1e-9 and 1 + 1e-6, and says how the picture answers. A pixel *answers* where it changes by more than
-one level of 255; the *amplification* is the RMS difference as part of full scale divided by the move.
+one level of 255; the *amplification* is the RMS difference as part of full scale divided by the move, of the whole
+frame also where only a region is rendered.
 
 | verdict | means |
 |---|---|
@@ -46,9 +47,11 @@ How the camera is moved: the scene's files are not touched. A later camera state
 header cannot reach it, and keywords cannot be redefined; so a copy of the scene, in a temporary folder, gets
 `scale 1 + Mpipov_Camera_Move` at the end of each camera statement, also of those in files that it includes, and POV-Ray
 gets the number by `Declare=`. A scale about the origin multiplies the camera's place and turns nothing; where the
-camera is at the origin it is shifted by so much of a unit. Three checks make it no silent nothing: the copy's camera
-prints a mark as POV-Ray comes to it; with a move of 0 the copy is the scene bit for bit; and where 1e-6 changes
-nothing, 1e-3 is tried too. Else the command ends with 3 and says what a scene can do itself:
+camera is at the origin it is shifted by so much of a unit. It is no silent nothing: where the copy's camera does
+not print a mark as POV-Ray comes to it, or where with a move of 0 the copy is not the scene bit for bit, the command
+ends with 3 and says what a scene can do itself. Where 1e-6 changes nothing, 1e-3 is tried too, and where that
+changes nothing either it is said, and `--require-well` ends with 1. An include whose name the scene computes is not
+found, and an orthographic camera's width is scaled as well.
 
     #ifndef (Mpipov_Camera_Move) #declare Mpipov_Camera_Move = 0; #end
     camera {{ location <1, 2, -5> look_at 0 scale 1 + Mpipov_Camera_Move }}

@@ -39,6 +39,9 @@ class Measure {
         if (found_.moves.back().comparison.identical()) find_another_way();
         AnswerMap map(found_.reference.image);
         for (CameraMove& one : found_.moves) one.answering = map.add(one.render.image, one.move);
+        if (found_.control)  // too large a move for the map
+            found_.control->answering =
+                AnswerMap(found_.reference.image).add(found_.control->render.image, control_move);
         judge();
         if (request_.full_map && found_.verdict->kind == Conditioning::ill) fill(map);
         return map;

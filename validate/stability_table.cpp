@@ -56,7 +56,7 @@ std::string to_table(const StabilityReport& report) {
     if (found.verdict)
         fmt::format_to(out, "\n{}: {}\n", to_string(found.verdict->kind), found.verdict->why);
     if (found.control && found.control->comparison.identical())
-        fmt::format_to(out, "Not even a move of {} changes the picture.\n",
+        fmt::format_to(out, "Not even a move of {} changes the picture: that shows nothing.\n",
                        move_text(found.control->move));
     fmt::format_to(out,
                    "\nMoved: {}. answering: pixels that change by more than one level of 255. "
