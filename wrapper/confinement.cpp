@@ -3,6 +3,7 @@
 #include "failure.h"
 #include "povray_command.h"
 #include "program_files.h"
+#include "scene_files.h"
 #include "scene_folders.h"
 
 #include <fmt/format.h>
@@ -151,16 +152,21 @@ Confinement::Confinement(const Options& options, const HostResources& host, cons
     require_present("--allow-write", options.allow_write);
     std::error_code error;
     const fs::path run_folder = fs::current_path(error);
-    program_ = files_of_program(find_program(options.povray));
+    const fs::path program = find_program(options.povray);
+    program_ = files_of_program(program);
+    if (is_for_more_than_a_scene(program.parent_path(), home))
+        std::erase(program_.execute, program.parent_path());
     for (const fs::path& path : options.allow_read)
         program_.read.push_back(fs::absolute(path, error));
     for (const fs::path& path : options.allow_write)
         program_.write.push_back(fs::absolute(path, error));
     program_.read.push_back(own / "home");
+    resolve_links(program_);
     files_ = program_;
     for (const fs::path& path :
          scene_folders({options.povray_arguments, run_folder, home, settings}))
         files_->read.push_back(path);
+    resolve_links(*files_);
     search(run_folder, options.povray_arguments);
     writes_ = writes_of_scene(options.povray_arguments, {searched_.begin() + 1, searched_.end()});
     // Where it may write there anyway it does so as POV-Ray alone.
@@ -173,6 +179,12 @@ void Confinement::search(const fs::path& run_folder, const std::vector<std::stri
     for (const std::string& argument : arguments)
         for (const std::string& folder : library_paths_in(argument))
             searched_.push_back(run_folder / folder);
+    // Those of its INI files too: so a name that is not found there is told with the way out.
+    for (const std::string& argument : arguments)
+        for (const std::string& name : names_in_option(argument))
+            if (fs::path(name).extension() == ".ini")
+                for (const std::string& folder : library_paths_of(run_folder / name))
+                    searched_.push_back(run_folder / folder);
 }
 
 Confinement Confinement::in_copy(const SceneCopy& copy) const {

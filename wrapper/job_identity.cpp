@@ -39,10 +39,20 @@ json settings_of(const IniSettings& settings) {
     return out;
 }
 
+// SHA-1; of a file so large that reading it would hold the run up, its size and time of change.
+std::string fingerprint(const std::filesystem::path& file) {
+    constexpr std::uintmax_t most_read_bytes = std::uintmax_t{1} << 30;
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+    if (error || bytes <= most_read_bytes) return sha1_of_file(file);
+    const auto changed = std::filesystem::last_write_time(file, error).time_since_epoch().count();
+    return fmt::format("{} bytes, changed {}", bytes, changed);
+}
+
 json files_of(const Probe& probe, const std::vector<std::string>& arguments) {
     json files = json::object();
     for (const std::filesystem::path& file : scene_files(scene_request(probe, arguments)))
-        files[file.string()] = sha1_of_file(file);
+        files[file.string()] = fingerprint(file);
     return files;
 }
 

@@ -54,6 +54,17 @@ TEST_F(JobIdentityTest, IsTheSameAgain) {
     EXPECT_EQ(what_changed(before, identity()), "");
 }
 
+// Reading it would take longer than the picture, without an end on ^C.
+TEST_F(JobIdentityTest, AHugeFileCountsByItsSizeAndTime) {
+    write("a.pov", "#declare Name = \"huge.df3\";");
+    write("lib/huge.df3", "x");
+    constexpr std::uintmax_t tib = std::uintmax_t{1} << 40;
+    std::filesystem::resize_file(path("lib/huge.df3"), 3 * tib);
+    const json before = identity();
+    std::filesystem::resize_file(path("lib/huge.df3"), 3 * tib + 1);
+    EXPECT_THAT(what_changed(before, identity()), HasSubstr("huge.df3' changed"));
+}
+
 TEST_F(JobIdentityTest, NamesTheSetting) {
     const json before = identity();
     probe_.settings[1].second = "65";

@@ -46,10 +46,12 @@ std::uint64_t known_to(long version) {
 void allow(const Fd& ruleset, const std::vector<std::filesystem::path>& paths,
            std::uint64_t rights) {
     for (const std::filesystem::path& path : paths) {
-        const Fd file(::open(path.c_str(), O_PATH | O_CLOEXEC));
+        // A link that took the place of what was allowed leads nowhere.
+        const Fd file(::open(path.c_str(), O_PATH | O_CLOEXEC | O_NOFOLLOW));
         struct stat status {};
         // What we cannot reach, what we start cannot reach either.
-        if (file.get() < 0 || ::fstat(file.get(), &status) != 0) continue;
+        if (file.get() < 0 || ::fstat(file.get(), &status) != 0 || S_ISLNK(status.st_mode))
+            continue;
         landlock_path_beneath_attr rule{};
         rule.allowed_access = S_ISDIR(status.st_mode) ? rights : rights & of_files;
         rule.parent_fd = file.get();
@@ -64,6 +66,20 @@ void allow(const Fd& ruleset, const std::vector<std::filesystem::path>& paths,
 
 bool can_restrict_files() {
     return landlock_version() > 0;
+}
+
+void resolve_links(FileAccess& access) {
+    for (auto* paths : {&access.read, &access.write, &access.execute})
+        for (std::filesystem::path& path : *paths) {
+            std::error_code error;
+            const std::filesystem::path parent = path.parent_path();
+            const bool everybodys =
+                (std::filesystem::status(parent, error).permissions() &
+                 std::filesystem::perms::sticky_bit) != std::filesystem::perms::none;
+            if (const std::filesystem::path real = std::filesystem::canonical(path, error);
+                !error && !everybodys)
+                path = real;
+        }
 }
 
 Fd make_ruleset(const FileAccess& access) {

@@ -35,6 +35,7 @@ class LandlockTest : public testing::Test {
         for (const char* program : {"cat", "mkdir", "ln", "mv", "rm"})
             request.files->execute.push_back(find_program(program));
         request.files->write.push_back(scratch_.path() / "mine");
+        resolve_links(*request.files);
         request.working_directory = scratch_.path();
         return run_to_end(request, &output_);
     }
@@ -81,12 +82,25 @@ TEST_F(LandlockTest, NothingElseIsStarted) {
     EXPECT_THAT(run("cp mine/text mine/new").exit_code, Optional(126)) << output_;
 }
 
+TEST_F(LandlockTest, ALinkThatTakesThePlaceOfWhatIsAllowedLeadsNowhere) {
+    ChildRequest request;
+    request.argv = {"cat", "theirs/text"};
+    request.files = files_of_program(find_program("cat"));
+    resolve_links(*request.files);
+    request.files->read.push_back(scratch_.path() / "mine/text");
+    request.working_directory = scratch_.path();
+    fs::remove(scratch_.path() / "mine/text");
+    fs::create_symlink(scratch_.path() / "theirs/text", scratch_.path() / "mine/text");
+    EXPECT_THAT(run_to_end(request).exit_code, Optional(1));
+}
+
 TEST_F(LandlockTest, AFileAloneCanBeAllowed) {
     ChildRequest request;
     request.argv = {"cat", "theirs/text"};
     request.files = files_of_program(find_program("cat"));
     request.files->read.push_back(scratch_.path() / "theirs/text");
     request.files->read.emplace_back("/no/such/file");
+    resolve_links(*request.files);
     request.working_directory = scratch_.path();
     std::string output;
     EXPECT_THAT(run_to_end(request, &output).exit_code, Optional(0)) << output;

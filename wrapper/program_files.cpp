@@ -111,7 +111,7 @@ FileAccess files_of_program(const fs::path& program) {
     access.read.assign(libraries.begin(), libraries.end());
     access.read.insert(access.read.end(), anybodys.begin(), anybodys.end());
     for (const std::string_view folder : split(variable("LD_LIBRARY_PATH"), ':'))
-        access.read.emplace_back(folder.empty() ? "." : folder);
+        if (!folder.empty()) access.read.emplace_back(folder);  // empty: the current folder
     for (const char* prefix : {"/usr", "/usr/local"}) add_povrays_own(prefix, access.read);
     access.read.emplace_back("/etc/povray");
     if (program.empty()) return access;

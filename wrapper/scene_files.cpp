@@ -154,6 +154,13 @@ std::string text_of(const fs::path& file) {
     return text.find('\0') == std::string::npos ? text : std::string();
 }
 
+// Of no size or endless, and nothing that a picture is made of.
+bool is_the_kernels(const fs::path& canonical) {
+    for (const char* folder : {"/proc/", "/sys/", "/dev/"})
+        if (canonical.string().rfind(folder, 0) == 0) return true;
+    return false;
+}
+
 class Search {
   public:
     explicit Search(const SceneRequest& request) {
@@ -213,7 +220,8 @@ class Search {
         std::error_code error;
         if (!fs::is_regular_file(file, error)) return;
         const fs::path canonical = fs::canonical(file, error);
-        if (error || canonical == output_ || is_povrays_own(canonical)) return;
+        if (error || canonical == output_ || is_povrays_own(canonical) || is_the_kernels(canonical))
+            return;
         named_.insert(file);
         if (absolute_name_) absolute_.insert(file);
         if (files_.emplace(canonical, file).second) to_scan_.push_back(file);

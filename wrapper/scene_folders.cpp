@@ -69,15 +69,6 @@ std::vector<std::string> values_in(std::string_view option, const Spelling& spel
     return values;
 }
 
-std::vector<std::string> library_paths_of(const fs::path& ini) {
-    std::vector<std::string> paths;
-    std::ifstream in(ini);
-    for (std::string line; std::getline(in, line);)
-        for (std::string& path : library_paths_in(line.substr(0, line.find(';'))))
-            paths.push_back(std::move(path));
-    return paths;
-}
-
 // What scenes read: themselves, includes, images, fonts, densities, meshes of points.
 bool is_a_scenes_file(const fs::path& file) {
     constexpr std::array kinds{".pov", ".inc", ".ini", ".mcr", ".tga",  ".gif", ".iff",
@@ -139,6 +130,15 @@ class Folders {
 
 std::vector<std::string> library_paths_in(std::string_view option) {
     return values_in(option, library_path);
+}
+
+std::vector<std::string> library_paths_of(const fs::path& ini) {
+    std::vector<std::string> paths;
+    std::ifstream in(ini);
+    for (std::string line; std::getline(in, line);)
+        for (std::string& path : library_paths_in(line.substr(0, line.find(';'))))
+            paths.push_back(std::move(path));
+    return paths;
 }
 
 std::vector<std::string> caches_in(std::string_view option) {

@@ -28,6 +28,9 @@ bool is_for_more_than_a_scene(const std::filesystem::path& folder,
 // The library paths that an argument or a line of an INI file names: +Lfolder, Library_Path=folder.
 std::vector<std::string> library_paths_in(std::string_view option);
 
+// Those of all lines of an INI file, as they stand there; none where it cannot be read.
+std::vector<std::string> library_paths_of(const std::filesystem::path& ini);
+
 // The radiosity cache that it names: +RFfile, Radiosity_File_Name=file.
 std::vector<std::string> caches_in(std::string_view option);
 

@@ -111,7 +111,8 @@ fs::path make_writable_view(const fs::path& folder, const fs::path& original,
         const std::string name = entry.path().filename().string();
         std::error_code error;
         const bool copied = std::find(written.begin(), written.end(), name) != written.end() &&
-                            entry.is_regular_file(error) &&
+                            // Not what a link leads to: that may be out of the scene's reach.
+                            entry.symlink_status(error).type() == fs::file_type::regular &&
                             entry.file_size(error) <= most_copied_bytes;
         if (copied)
             fs::copy_file(entry.path(), at / name, error);
