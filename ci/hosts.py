@@ -148,6 +148,9 @@ mkdir -p /run/sshd
                     value += f" {CGROUP_PERIOD}"
                 else:
                     (group / "cpu.cfs_period_us").write_text(str(CGROUP_PERIOD))
+                # What it may have, it gets, whatever else the machine does.
+                weight = ("cpu.weight", "10000") if quota == "cpu.max" else ("cpu.shares", "200000")
+                (group / weight[0]).write_text(weight[1])
                 (group / quota).write_text(value)
                 for pid in self.processes():
                     (group / "cgroup.procs").write_text(str(pid))
