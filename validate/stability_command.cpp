@@ -61,8 +61,8 @@ Exit run(const CLI::App& app, const StabilityOptions& options) {
     if (!options.json.empty()) write_json(options.json, to_json(report));
     // A picture that never moves shows nothing of its scene.
     const auto& control = report.found.control;
-    const bool well = is_well(report.found.verdict->kind) &&
-                      !(control && control->comparison.identical());
+    const bool well =
+        is_well(report.found.verdict->kind) && !(control && control->comparison.identical());
     return well || !options.require_well ? Exit::ok : Exit::differ;
 }
 
