@@ -121,33 +121,33 @@ def killed(whom, name):
     return case
 
 
-def soak(place, kills, seed):
-    """One run after another is killed at a random moment and gone on from. A run that was killed
-    twice or more before it is complete is among them: with an even number --resume is killed too."""
+def soak(place, images, seed):
+    """One run after another is killed at a random moment and gone on from, until so many images were
+    made by runs that were killed. A third of them are killed again while they go on."""
     whole = undisturbed_seconds(place)
     chance = random.Random(seed)
     print(f"seed {seed}, undisturbed {whole:.2f} s", flush=True)
-    done, slowest, images, ended_before = 0, 0.0, 0, 0
-    while done < kills:
+    kills, slowest, made, ended_before = 0, 0.0, 0, 0
+    while made < images:
         whom, name = chance.choice(KILLS)
         more = ["--resume"] if (place.work_folder / "journal.json").exists() else []
         early, gone = disturbed(place, whom, name, chance.uniform(0, whole), *more)
-        if early:
-            done += 1
-            slowest = max(slowest, gone)
-            require_no_partial_output(place)
-            kept = place.sections_kept()
-            if chance.random() < 0.3 and done < kills:
-                print(f"{done}: SIG{name} to {whom}: {kept} sections kept; killed again", flush=True)
-                continue
-            go_on(place)
-            images += 1
-            print(f"{done}: SIG{name} to {whom}: {kept} sections kept; image {images} identical",
-                  flush=True)
-        else:
+        if not early:  # it was there before the signal
+            place.require_image()
             ended_before += 1
-            images += 1
             for file in ("image.png", "run.json"):
                 (place.folder / file).unlink(missing_ok=True)
-    print(f"{kills} kills, {images} images, all identical ({ended_before} were complete before the "
-          f"signal); slowest end {slowest:.2f} s")
+            continue
+        kills += 1
+        slowest = max(slowest, gone)
+        require_no_partial_output(place)
+        kept = place.sections_kept()
+        told = f"{kills}: SIG{name} to {whom}: {kept} sections kept"
+        if chance.random() < 1 / 3:
+            print(f"{told}; killed again", flush=True)
+            continue
+        go_on(place)
+        made += 1
+        print(f"{told}; image {made} identical", flush=True)
+    print(f"{kills} kills in a row, {made} images gone on from, all identical ({ended_before} runs more "
+          f"were complete before the signal); POV-Ray was gone after at most {slowest:.2f} s")

@@ -8,8 +8,8 @@ undisturbed run makes, rendering only what is missing.
 
     faults.py list            the cases, as CMakeLists.txt reads them
     faults.py run CASE
-    faults.py soak [--kills N] [--seed S]
-                              N kills (default: 100) at random moments, each gone on from
+    faults.py soak [--images N] [--seed S]
+                              kills at random moments, until N images (default: 100) were gone on to
 
 Exit codes: 0 ok, 1 mpipov behaves otherwise, 2 usage, 77 cannot be tested here.
 """
@@ -192,7 +192,7 @@ def main():
     parser = argument_parser(__doc__)
     parser.add_argument("command", choices=["list", "run", "soak"])
     parser.add_argument("case", nargs="?", metavar="CASE")
-    parser.add_argument("--kills", type=int, default=100)
+    parser.add_argument("--images", type=int, default=100)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     known = cases()
@@ -201,7 +201,7 @@ def main():
         return 0
     if options.command == "soak":
         with Place(options, "soak") as place:
-            soak(place, options.kills, options.seed)
+            soak(place, options.images, options.seed)
         return 0
     if options.case not in known:
         parser.error(f"no case '{options.case}': see faults.py list")
