@@ -35,9 +35,10 @@ RUN_SECONDS = 300
 WATCH_SECONDS = 0.1
 GONE_SECONDS = 2
 SLOW_POVRAY = "/mnt/slow-povray"
-# A launch of a section waits before it begins, so that a run lasts on any machine.
+# A launch of a section waits before it begins, so that a run lasts on any machine: longer than a lost
+# host takes to be noticed, else the others would have copied its last sections by then.
 SLOW_SCRIPT = """#!/bin/sh
-case "$*" in *+SC0*|*+HI*|*version*) ;; *+WT1*+O*section*) sleep 3 ;; esac
+case "$*" in *+SC0*|*+HI*|*version*) ;; *+WT1*+O*section*) sleep 6 ;; esac
 exec povray "$@"
 """
 

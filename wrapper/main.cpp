@@ -217,7 +217,11 @@ int run(const std::vector<std::string>& arguments, int rank, bool& several_hosts
         part(patience_seconds, error.what());
         throw;
     }
-    part(patience_seconds, "a rank did not answer at the end; the image is complete");
+    // Between hosts a rank that is lost by now was not heard of either.
+    const double most = several_hosts && options.lost_after_seconds > 0
+                            ? std::min(patience_seconds, options.lost_after_seconds)
+                            : patience_seconds;
+    part(most, "a rank did not answer at the end; the image is complete");
     return 0;
 }
 
