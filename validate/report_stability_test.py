@@ -1,6 +1,5 @@
 """report_stability.py: a scene's conditioning on the page, alone and beside its seams."""
 
-import copy
 import pathlib
 import sys
 import tempfile
@@ -11,7 +10,7 @@ import numpy as np
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import report  # noqa: E402
-from report_test import EVIL, Parsed, save  # noqa: E402
+from report_test import EVIL, Parsed, damaged_copies, save  # noqa: E402
 
 
 def move(size, answering):
@@ -92,28 +91,9 @@ class Stability(unittest.TestCase):
         self.assertIn("Not measured: POV-Ray says no", Parsed(self.source(found, "seams")).text)
 
     def test_any_part_may_lack_or_be_something_else(self):
-        whole = stability()
-
-        def paths(value, path=()):
-            if path:
-                yield path
-            entries = value.items() if isinstance(value, dict) else \
-                enumerate(value[:2]) if isinstance(value, list) else ()
-            for key, inner in entries:
-                yield from paths(inner, (*path, key))
-
-        for path in list(paths(whole)):
-            for value in ("remove", "text", -3, [7, None]):
-                data = copy.deepcopy(whole)
-                parent = data
-                for step in path[:-1]:
-                    parent = parent[step]
-                if value != "remove":
-                    parent[path[-1]] = value
-                else:
-                    del parent[path[-1]]
-                with self.subTest(path=path, value=value):
-                    self.assertIn("</html>", self.source(data))
+        for path, value, data in damaged_copies(stability()):
+            with self.subTest(path=path, value=value):
+                self.assertIn("</html>", self.source(data))
 
 
 if __name__ == "__main__":

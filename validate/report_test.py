@@ -89,6 +89,29 @@ def seams(cases, **changes):
             "cases": cases, **changes}
 
 
+def damaged_copies(whole):
+    """Each part of it missing, or something else: (its path, what it became, all of the copy)."""
+    def paths(value, path=()):
+        if path:
+            yield path
+        entries = value.items() if isinstance(value, dict) else \
+            enumerate(value[:2]) if isinstance(value, list) else ()
+        for key, inner in entries:
+            yield from paths(inner, (*path, key))
+
+    for path in list(paths(whole)):
+        for value in ("remove", "text", -3, [7, None]):
+            data = copy.deepcopy(whole)
+            parent = data
+            for step in path[:-1]:
+                parent = parent[step]
+            if value != "remove":
+                parent[path[-1]] = value
+            else:
+                del parent[path[-1]]
+            yield path, value, data
+
+
 class Parsed(html.parser.HTMLParser):
     """What of a page tests ask: its text, its tags, what it would load."""
 
@@ -283,33 +306,14 @@ class Page(unittest.TestCase):
         self.assertIn("≠ 1 differs as expected", page.text)
 
     def test_any_part_may_lack_or_be_something_else(self):
-        whole = seams([self.differing()])
-
-        def paths(value, path=()):
-            if path:
-                yield path
-            entries = value.items() if isinstance(value, dict) else \
-                enumerate(value[:2]) if isinstance(value, list) else ()
-            for key, inner in entries:
-                yield from paths(inner, (*path, key))
-
         tried = 0
-        for path in list(paths(whole)):
-            for value in ("remove", "text", -3, [7, None]):
-                data = copy.deepcopy(whole)
-                parent = data
-                for step in path[:-1]:
-                    parent = parent[step]
-                if value != "remove":
-                    parent[path[-1]] = value
-                else:
-                    del parent[path[-1]]
-                with self.subTest(path=path, value=value), unittest.mock.patch(
-                        "report_plots.error_by_distance", return_value="data:,"):
-                    source = self.source(data)
-                    self.assertIn("</html>", source)
-                    self.assertNotRegex(source, "(Error|Exception): ")
-                tried += 1
+        for path, value, data in damaged_copies(seams([self.differing()])):
+            with self.subTest(path=path, value=value), unittest.mock.patch(
+                    "report_plots.error_by_distance", return_value="data:,"):
+                source = self.source(data)
+                self.assertIn("</html>", source)
+                self.assertNotRegex(source, "(Error|Exception): ")
+            tried += 1
         self.assertGreater(tried, 300)
 
     def test_speedup_and_noise_tables(self):

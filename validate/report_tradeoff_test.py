@@ -1,6 +1,5 @@
 """report_tradeoff.py, tradeoff_crops.py, tradeoff_pictures.py: a trade-off on the page and as files."""
 
-import copy
 import json
 import pathlib
 import sys
@@ -17,7 +16,7 @@ import report  # noqa: E402
 import report_tradeoff  # noqa: E402
 import tradeoff_crops  # noqa: E402
 import tradeoff_pictures  # noqa: E402
-from report_test import EVIL, Parsed, save  # noqa: E402
+from report_test import EVIL, Parsed, damaged_copies, save  # noqa: E402
 
 WIDTH, HEIGHT = 96, 64
 BAD = (70, 40)  # the middle of what is wrong in the worse pictures
@@ -115,31 +114,12 @@ class Tradeoff(unittest.TestCase):
         self.assertIn("setting slow", page.text)
 
     def test_any_part_may_lack_or_be_something_else(self):
-        whole = tradeoff()
-
-        def paths(value, path=()):
-            if path:
-                yield path
-            entries = value.items() if isinstance(value, dict) else \
-                enumerate(value[:2]) if isinstance(value, list) else ()
-            for key, inner in entries:
-                yield from paths(inner, (*path, key))
-
         tried = 0
-        for path in list(paths(whole)):
-            for value in ("remove", "text", -3, [7, None]):
-                data = copy.deepcopy(whole)
-                parent = data
-                for step in path[:-1]:
-                    parent = parent[step]
-                if value != "remove":
-                    parent[path[-1]] = value
-                else:
-                    del parent[path[-1]]
-                with self.subTest(path=path, value=value), unittest.mock.patch(
-                        "report_plots.error_by_seconds", return_value="data:,"):
-                    self.assertIn("</html>", self.source(data))
-                tried += 1
+        for path, value, data in damaged_copies(tradeoff()):
+            with self.subTest(path=path, value=value), unittest.mock.patch(
+                    "report_plots.error_by_seconds", return_value="data:,"):
+                self.assertIn("</html>", self.source(data))
+            tried += 1
         self.assertGreater(tried, 200)
 
     def test_panels_leave_out_what_no_logarithm_shows(self):

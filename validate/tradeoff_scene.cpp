@@ -1,5 +1,6 @@
 #include "tradeoff_scene.h"
 
+#include "file_text.h"
 #include "job_identity.h"
 #include "povray_command.h"
 #include "probe.h"
@@ -8,8 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 namespace mpipov {
 namespace {
@@ -17,8 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool mentions_size(const fs::path& file) {
-    std::ifstream in(file);
-    const std::string text(std::istreambuf_iterator<char>(in), {});
+    const std::string text = text_of(file);
     return text.find("image_width") != std::string::npos ||
            text.find("image_height") != std::string::npos;
 }

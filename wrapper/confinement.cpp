@@ -1,6 +1,7 @@
 #include "confinement.h"
 
 #include "failure.h"
+#include "inside.h"
 #include "povray_command.h"
 #include "program_files.h"
 #include "scene_files.h"
@@ -94,12 +95,9 @@ std::uint64_t number_in(const char* file) {
     return end.ec == std::errc() && end.ptr == word.data() + word.size() ? number : 0;
 }
 
-// Whether `file` is `folder` or in it.
-bool lies_in(const fs::path& file, const fs::path& folder) {
+bool really_lies_in(const fs::path& file, const fs::path& folder) {
     std::error_code error;
-    const fs::path inside =
-        fs::weakly_canonical(file, error).lexically_relative(fs::weakly_canonical(folder, error));
-    return !inside.empty() && *inside.begin() != "..";
+    return lies_in(fs::weakly_canonical(file, error), fs::weakly_canonical(folder, error));
 }
 
 void require_present(const char* option, const std::vector<fs::path>& paths) {
@@ -162,16 +160,16 @@ Confinement::Confinement(const Options& options, const HostResources& host, cons
         program_.write.push_back(fs::absolute(path, error));
     program_.read.push_back(own / "home");
     resolve_links(program_);
+    FileAccess scene;
+    scene.read = scene_folders({options.povray_arguments, run_folder, home, settings});
+    resolve_links(scene);
     files_ = program_;
-    for (const fs::path& path :
-         scene_folders({options.povray_arguments, run_folder, home, settings}))
-        files_->read.push_back(path);
-    resolve_links(*files_);
+    files_->read.insert(files_->read.end(), scene.read.begin(), scene.read.end());
     search(run_folder, options.povray_arguments);
     writes_ = writes_of_scene(options.povray_arguments, {searched_.begin() + 1, searched_.end()});
     // Where it may write there anyway it does so as POV-Ray alone.
     for (const fs::path& folder : files_->write)
-        if (lies_in(run_folder, folder)) writes_.any = false;
+        if (really_lies_in(run_folder, folder)) writes_.any = false;
 }
 
 void Confinement::search(const fs::path& run_folder, const std::vector<std::string>& arguments) {
@@ -182,7 +180,7 @@ void Confinement::search(const fs::path& run_folder, const std::vector<std::stri
     // Those of its INI files too: so a name that is not found there is told with the way out.
     for (const std::string& argument : arguments)
         for (const std::string& name : names_in_option(argument))
-            if (fs::path(name).extension() == ".ini")
+            if (is_ini(name))
                 for (const std::string& folder : library_paths_of(run_folder / name))
                     searched_.push_back(run_folder / folder);
 }
@@ -245,16 +243,15 @@ ChildRequest Confinement::request(LaunchNeeds needs) const {
     if (!files_) return request;
     request.files = files_;
     request.files->write.push_back(needs.folder);
-    if (writes_.any) {
+    if (writes_.any)
         request.working_directory =
             make_writable_view(needs.folder / "view", searched_.front(), writes_.names);
-    }
     request.files->read.insert(request.files->read.end(), needs.reads.begin(), needs.reads.end());
     return request;
 }
 
 bool Confinement::may_read(const fs::path& file) const {
-    const auto in = [&](const fs::path& folder) { return lies_in(file, folder); };
+    const auto in = [&](const fs::path& folder) { return really_lies_in(file, folder); };
     return std::ranges::any_of(files_->read, in) || std::ranges::any_of(files_->write, in);
 }
 

@@ -31,23 +31,13 @@ constexpr bool sanitized = true;
 constexpr bool sanitized = false;
 #endif
 
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
-
 // Rank 0 with a coordinator, in the test's thread; the other ranks in threads of their own. All of
 // them launch the stand-in for POV-Ray.
 class EventLoopTest : public FakePovrayTest {
   protected:
     static CoordinatorSetup setup(int ranks, int sections) {
-        CoordinatorSetup c;
-        c.partition = make_partition({frame, Shape::columns, Seams::halo, sections, 2, 32});
-        c.image = {frame.width(), frame.height()};
-        c.job = fake_job(c.image);
+        CoordinatorSetup c = launching_setup(frame, ranks, sections);
         c.timeout_seconds = 60;
-        for (int rank = 0; rank < ranks; ++rank) c.ranks.push_back({rank, "host", 1, 0, 0});
-        c.in_flight.assign(c.ranks.size(), 1);
         return c;
     }
 
@@ -56,7 +46,7 @@ class EventLoopTest : public FakePovrayTest {
         const int size = static_cast<int>(c.ranks.size());
         InProcessRanks ranks(size);
         Canvas canvas({frame.width(), frame.height(), known_channels, Depth::uint8});
-        Coordinator coordinator(std::move(c), ranks.at(0), canvas, nullptr, now);
+        Coordinator coordinator(std::move(c), ranks.at(0), canvas, nullptr, steady_seconds);
         std::vector<std::jthread> threads;
         for (int rank = 1; rank < size; ++rank)
             threads.emplace_back([&, rank] {
@@ -143,7 +133,7 @@ TEST_F(EventLoopTest, EndsWithPovraysErrorWhereASectionAlwaysFails) {
 TEST_F(EventLoopTest, ARankThatRefusesEndsTheRun) {
     InProcessRanks ranks(2);
     Canvas canvas({frame.width(), frame.height(), known_channels, Depth::uint8});
-    Coordinator coordinator(setup(2, 2), ranks.at(0), canvas, nullptr, now);
+    Coordinator coordinator(setup(2, 2), ranks.at(0), canvas, nullptr, steady_seconds);
     Worker worker(ranks.at(0), scratch_.path());
     ranks.at(1).send({MessageKind::refused, 0, {{"code", 5}, {"why", "interrupted"}}, {}});
     try {
@@ -180,7 +170,7 @@ class PendingSignal {
 TEST_F(EventLoopTest, ASignalEndsTheLaunches) {
     const PendingSignal signal;
     const Environment fault = faults("hang");
-    const double begin = now();
+    const double begin = steady_seconds();
     int steps = 0;
     try {
         run(setup(1, 2), [&] {
@@ -190,20 +180,20 @@ TEST_F(EventLoopTest, ASignalEndsTheLaunches) {
     } catch (const Failure& failure) {
         EXPECT_EQ(failure.code(), Exit::interrupted);
     }
-    EXPECT_LT(now() - begin, 20) << "a launch that hangs has held it up";
+    EXPECT_LT(steady_seconds() - begin, 20) << "a launch that hangs has held it up";
 }
 
 TEST_F(EventLoopTest, ASignalEndsTheWaitForAMessage) {
     const PendingSignal signal;
     InProcessRanks ranks(2);
-    const double begin = now();
+    const double begin = steady_seconds();
     std::jthread later([] {
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
         ::kill(::getpid(), SIGTERM);
     });
     EXPECT_FALSE(wait_for_message(ranks.at(0), 60));
     EXPECT_FALSE(wait_for_message(ranks.at(0), 60, 0.1));
-    EXPECT_LT(now() - begin, 20);
+    EXPECT_LT(steady_seconds() - begin, 20);
     // What is there is taken all the same.
     ranks.at(1).send({MessageKind::bye, 0, nlohmann::json::object(), {}});
     EXPECT_TRUE(wait_for_message(ranks.at(0), 60));
@@ -228,7 +218,7 @@ TEST_F(EventLoopTest, SleepsWhileItWaits) {
         Canvas canvas({frame.width(), frame.height(), known_channels, Depth::uint8});
         CoordinatorSetup c = setup(2, 1);
         c.ranks[launched ? 1 : 0].slots = 0;
-        Coordinator coordinator(std::move(c), ranks.at(0), canvas, nullptr, now);
+        Coordinator coordinator(std::move(c), ranks.at(0), canvas, nullptr, steady_seconds);
         Worker worker(ranks.at(0), scratch_.path());
         coordinator.start();
         double began = 0, cpu = 0;
@@ -236,12 +226,13 @@ TEST_F(EventLoopTest, SleepsWhileItWaits) {
         const auto every_step = [&] {
             while (ranks.at(1).try_receive()) continue;
             if (began == 0 && ranks.waiting() == 0) {
-                began = now();
+                began = steady_seconds();
                 cpu = own_cpu_seconds(RUSAGE_THREAD);
                 wakes = 0;
             }
             ++wakes;
-            if (began > 0 && now() - began > watched_seconds) throw std::runtime_error("enough");
+            if (began > 0 && steady_seconds() - began > watched_seconds)
+                throw std::runtime_error("enough");
         };
         EXPECT_THROW(run_event_loop({ranks.at(0), worker, &coordinator, every_step}),
                      std::runtime_error);
@@ -258,9 +249,9 @@ TEST_F(EventLoopTest, SleepsWhileItWaits) {
 
 TEST(WaitForMessage, ReturnsTheMessageOrNothingInTime) {
     InProcessRanks ranks(2);
-    const double begin = now();
+    const double begin = steady_seconds();
     EXPECT_FALSE(wait_for_message(ranks.at(0), 0.05));
-    EXPECT_GE(now() - begin, 0.05);
+    EXPECT_GE(steady_seconds() - begin, 0.05);
     ranks.at(1).send({MessageKind::hello, 0, {{"slots", 4}}, {}});
     const auto message = wait_for_message(ranks.at(0), 60);
     ASSERT_TRUE(message);

@@ -1,6 +1,7 @@
 // For tests that launch the stand-in for POV-Ray (fake_povray_main.cpp).
 #pragma once
 
+#include "coordinator.h"
 #include "povray_command.h"
 #include "scratch.h"
 
@@ -8,6 +9,7 @@
 #include <sys/wait.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
@@ -40,6 +42,22 @@ inline JobCommand fake_job(const ImageSize& image) {
     job.user_arguments = {"+Iscene.pov", "+W" + std::to_string(image.width),
                           "+H" + std::to_string(image.height)};
     return job;
+}
+
+inline double steady_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+// Ranks that launch the stand-in for sections of `frame`, one at a time.
+inline CoordinatorSetup launching_setup(const Rect& frame, int ranks, int sections) {
+    CoordinatorSetup c;
+    c.partition = make_partition({frame, Shape::columns, Seams::halo, sections, 2, 32});
+    c.image = {frame.width(), frame.height()};
+    c.job = fake_job(c.image);
+    for (int rank = 0; rank < ranks; ++rank) c.ranks.push_back({rank, "host", 1, 0, 0});
+    c.in_flight.assign(c.ranks.size(), 1);
+    return c;
 }
 
 // A scratch folder for a worker's section files; at the end of a test nothing is left in it, and no

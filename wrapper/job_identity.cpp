@@ -101,9 +101,7 @@ json job_identity(const Probe& probe, const std::vector<std::string>& arguments,
 }
 
 std::string scene_sha1(const json& identity) {
-    const std::string files = identity.at(files_key).dump();
-    OIIO::SHA1 sha(files.data(), files.size());
-    return sha1_digits(sha);
+    return sha1_of_text(identity.at(files_key).dump());
 }
 
 std::vector<std::filesystem::path> files_of_scene(const json& identity) {

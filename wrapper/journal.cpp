@@ -105,11 +105,6 @@ void remove_empty_folders(std::filesystem::path folder, int how_many) {
 
 constexpr std::size_t sha1_line = 41;
 
-std::string sha1_of_text(const std::string& text) {
-    OIIO::SHA1 sha(text.data(), text.size());
-    return sha1_digits(sha);
-}
-
 struct Entry {
     int section = 0;
     std::string sha1;

@@ -55,12 +55,13 @@ Message unpack(std::span<const std::byte> bytes, int from) {
 }
 
 int int_from_json(const nlohmann::json& json, int least, int most) {
-    const auto number = json.is_number_integer() ? json.get<std::int64_t>() : std::int64_t{-1};
-    // What does not fit into 64 bits with a sign is no number of ours either.
-    const bool too_large = json.is_number_unsigned() && number < 0;
-    if (!json.is_number_integer() || too_large || number < least || number > most)
-        throw std::runtime_error("a message between ranks has an impossible number");
-    return static_cast<int>(number);
+    try {
+        const int number = whole_number<int>(json);
+        if (number >= least && number <= most) return number;
+    } catch (const std::runtime_error&) {
+        // Said in our own words.
+    }
+    throw std::runtime_error("a message between ranks has an impossible number");
 }
 
 nlohmann::json rect_to_json(const Rect& r) {

@@ -8,14 +8,28 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <initializer_list>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace mpipov {
 namespace {
 
 [[noreturn]] void bad_value(const std::string& value, const char* wanted) {
     throw Failure(Exit::usage, fmt::format("'{}' is not {}", value, wanted));
+}
+
+// The word's value; the words are named where it is none of them.
+template <class T>
+T one_of(const std::string& word, std::initializer_list<std::pair<const char*, T>> choices) {
+    std::vector<const char*> words;
+    for (const auto& [name, value] : choices) {
+        if (word == name) return value;
+        words.push_back(name);
+    }
+    bad_value(word, fmt::format("one of {}", fmt::join(words, ", ")).c_str());
 }
 
 }  // namespace
@@ -91,47 +105,40 @@ void set_radiosity(Options& o, const std::string& value) {
 }
 
 void set_schedule(Options& o, const std::string& value) {
-    for (const Policy policy : {Policy::static_, Policy::dynamic, Policy::cost})
-        if (value == to_string(policy)) {
-            o.schedule = policy;
-            return;
-        }
-    bad_value(value, "one of static, dynamic, cost");
+    o.schedule = one_of<Policy>(
+        value, {{"static", Policy::static_}, {"dynamic", Policy::dynamic}, {"cost", Policy::cost}});
 }
 
 void set_ship(Options& o, const std::string& value) {
-    if (value == "auto")
-        o.ship = Ship::automatic;
-    else if (value == "on")
-        o.ship = Ship::on;
-    else if (value == "off")
-        o.ship = Ship::off;
-    else
-        bad_value(value, "one of auto, on, off");
+    o.ship = one_of<Ship>(value, {{"auto", Ship::automatic}, {"on", Ship::on}, {"off", Ship::off}});
 }
 
 void set_progress(Options& o, const std::string& value) {
-    if (value == "auto")
-        o.progress = ProgressStyle::automatic;
-    else if (value == "plain")
-        o.progress = ProgressStyle::plain;
-    else if (value == "none")
-        o.progress = ProgressStyle::none;
-    else
-        bad_value(value, "one of auto, plain, none");
+    o.progress = one_of<ProgressStyle>(value, {{"auto", ProgressStyle::automatic},
+                                               {"plain", ProgressStyle::plain},
+                                               {"none", ProgressStyle::none}});
 }
 
 namespace {
 
+struct Number {
+    double value = 0;
+    std::size_t used = 0;  // characters
+};
+
 // `wanted` finishes "'x' is not ...".
-double positive_seconds(const std::string& value, const char* wanted) {
-    std::size_t used = 0;
-    double seconds = 0;
+Number number_at_front(const std::string& text, const char* wanted) {
+    Number number;
     try {
-        seconds = std::stod(value, &used);
+        number.value = std::stod(text, &number.used);
     } catch (const std::exception&) {
-        bad_value(value, wanted);
+        bad_value(text, wanted);
     }
+    return number;
+}
+
+double positive_seconds(const std::string& value, const char* wanted) {
+    const auto [seconds, used] = number_at_front(value, wanted);
     if (used != value.size() || !(seconds > 0) || !std::isfinite(seconds)) bad_value(value, wanted);
     return seconds;
 }
@@ -148,14 +155,8 @@ void set_timeout(Options& o, const std::string& value) {
 }
 
 void set_confine(Options& o, const std::string& value) {
-    if (value == "auto")
-        o.confine = Confining::automatic;
-    else if (value == "on")
-        o.confine = Confining::on;
-    else if (value == "off")
-        o.confine = Confining::off;
-    else
-        bad_value(value, "one of auto, on, off");
+    o.confine = one_of<Confining>(
+        value, {{"auto", Confining::automatic}, {"on", Confining::on}, {"off", Confining::off}});
 }
 
 SizeLimit size_limit(const std::string& value) {
@@ -165,13 +166,7 @@ SizeLimit size_limit(const std::string& value) {
     if (value == "auto") return {};
     if (value == "none") return {false, {}};
     constexpr std::string_view units = "KMGT";
-    std::size_t used = 0;
-    double bytes = 0;
-    try {
-        bytes = std::stod(value, &used);
-    } catch (const std::exception&) {
-        bad_value(value, wanted);
-    }
+    auto [bytes, used] = number_at_front(value, wanted);
     if (used < value.size()) {
         const auto unit =
             units.find(static_cast<char>(std::toupper(static_cast<unsigned char>(value[used]))));

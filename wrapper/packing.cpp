@@ -1,15 +1,14 @@
 #include "packing.h"
 
 #include "failure.h"
+#include "file_text.h"
+#include "inside.h"
 #include "packed_paths.h"
 #include "sha1_digits.h"
 
-#include <OpenImageIO/hash.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <system_error>
@@ -24,28 +23,6 @@ constexpr const char* ini_name = "povray.ini";  // beside the copy of the file t
 fs::path real_path(const fs::path& path) {
     std::error_code error;
     return fs::weakly_canonical(fs::absolute(path), error);
-}
-
-bool lies_in(const fs::path& file, const fs::path& folder) {
-    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first ==
-           folder.end();
-}
-
-std::string text_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string sha1_of(const std::string& text) {
-    OIIO::SHA1 sha(text.data(), text.size());
-    return sha1_digits(sha);
-}
-
-bool is_ini(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".ini";
 }
 
 std::vector<fs::path> own_library_paths(const SceneRequest& request) {
@@ -79,7 +56,7 @@ class MayGo {
 };
 
 void add(Packing& packing, const std::string& name, std::string text) {
-    packing.pack.files.push_back({name, text.size(), sha1_of(text)});
+    packing.pack.files.push_back({name, text.size(), sha1_of_text(text)});
     packing.sources.push_back({{}, std::move(text)});
 }
 

@@ -2,7 +2,9 @@
 
 #include "child_process.h"
 #include "failure.h"
+#include "file_text.h"
 #include "launch_failure.h"
+#include "letter_case.h"
 #include "probe_launches.h"
 
 #include <fmt/format.h>
@@ -10,8 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 namespace mpipov {
@@ -70,16 +70,10 @@ bool same_pixels(const std::filesystem::path& a, const std::filesystem::path& b)
     }
 }
 
-std::string text_of(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
 bool is_on(const std::map<std::string, std::string>& settings, const char* key) {
     const auto found = settings.find(key);
     if (found == settings.end()) return false;
-    std::string value = found->second;
-    std::ranges::transform(value, value.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string value = lower(found->second);
     return value == "on" || value == "true" || value == "yes" || value == "1";
 }
 

@@ -1,5 +1,7 @@
 #include "scene_files.h"
 
+#include "letter_case.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -24,21 +26,6 @@ constexpr std::array extensions{".pov", ".inc", ".ini", ".tga",  ".gif", ".iff",
 
 bool is_blank(char c) {
     return std::isspace(static_cast<unsigned char>(c)) != 0;
-}
-
-std::string changed_case(std::string_view text, int (*change)(int)) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(),
-                   [&](unsigned char c) { return static_cast<char>(change(c)); });
-    return out;
-}
-
-std::string lower(std::string_view text) {
-    return changed_case(text, [](int c) { return std::tolower(c); });
-}
-
-std::string upper(std::string_view text) {
-    return changed_case(text, [](int c) { return std::toupper(c); });
 }
 
 std::string_view trim(std::string_view text) {
@@ -173,12 +160,12 @@ class Search {
         // Where the scene lies is known now. POV-Ray itself looks there only where +L says so.
         const std::vector<fs::path> found(to_scan_.begin(), to_scan_.end());
         for (const fs::path& file : found)
-            if (lower(file.extension().string()) != ".ini") folders_.push_back(file.parent_path());
+            if (!is_ini(file)) folders_.push_back(file.parent_path());
         names_.clear();
         while (!to_scan_.empty()) {
             const fs::path file = to_scan_.front();
             to_scan_.pop_front();
-            const bool ini = lower(file.extension().string()) == ".ini";
+            const bool ini = is_ini(file);
             in_text_ = !ini;
             look_for_all(ini ? names_in_ini(text_of(file)) : names_in_scene(text_of(file)));
         }
@@ -256,20 +243,27 @@ std::vector<std::string> names_in_scene(std::string_view text) {
     return names;
 }
 
+bool is_ini(const std::filesystem::path& file) {
+    return lower(file.extension().string()) == ".ini";
+}
+
+std::vector<std::string_view> readings_of(std::string_view option) {
+    std::vector<std::string_view> readings{option};
+    for (std::size_t at = 0; at < option.size();) {
+        const std::size_t end = std::min(option.find_first_of(" \t", at), option.size());
+        readings.push_back(option.substr(at, end - at));
+        at = end + 1;
+    }
+    return readings;
+}
+
 std::vector<std::string> names_in_option(std::string_view option) {
     std::vector<std::string> names;
     std::unordered_set<std::string_view> known;
     const auto add = [&](std::string_view name) {
         if (!name.empty() && known.insert(name).second) names.emplace_back(name);
     };
-    add(name_in_word(option));
-    // POV-Ray takes several options in one argument or line; that a name has blanks is not
-    // excluded.
-    for (std::size_t at = 0; at < option.size();) {
-        const std::size_t end = std::min(option.find_first_of(" \t", at), option.size());
-        add(name_in_word(option.substr(at, end - at)));
-        at = end + 1;
-    }
+    for (const std::string_view words : readings_of(option)) add(name_in_word(words));
     return names;
 }
 

@@ -25,6 +25,12 @@ std::vector<std::string> names_in_scene(std::string_view text);
 // a scene or a header (+HI). Names of what it writes are none of them.
 std::vector<std::string> names_in_option(std::string_view option);
 
+bool is_ini(const std::filesystem::path& file);
+
+// What an argument of POV-Ray's, or a line of an INI file, may be: one option that has blanks, or
+// several; so all of it, and each of its words.
+std::vector<std::string_view> readings_of(std::string_view option);
+
 struct SceneRequest {
     std::string scene;                 // as POV-Ray was given it
     std::vector<std::string> options;  // POV-Ray's command line

@@ -1,12 +1,13 @@
 #include "scene_folders.h"
 
+#include "inside.h"
+#include "letter_case.h"
 #include "scene_files.h"
 
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fstream>
 #include <set>
 #include <system_error>
@@ -15,13 +16,6 @@ namespace mpipov {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return out;
-}
 
 std::string_view unquoted(std::string_view text) {
     constexpr const char* blanks = " \t\r\n";
@@ -52,7 +46,6 @@ std::string_view value_in_word(std::string_view word, const Spelling& spelling) 
     return unquoted(word.substr(equals + 1));
 }
 
-// POV-Ray takes several options in one argument or line; a name may have blanks too.
 std::vector<std::string> values_in(std::string_view option, const Spelling& spelling) {
     std::vector<std::string> values;
     const auto add = [&](std::string_view word) {
@@ -60,12 +53,7 @@ std::vector<std::string> values_in(std::string_view option, const Spelling& spel
         if (!value.empty() && std::find(values.begin(), values.end(), value) == values.end())
             values.emplace_back(value);
     };
-    add(option);
-    for (std::size_t at = 0; at < option.size();) {
-        const std::size_t end = std::min(option.find_first_of(" \t", at), option.size());
-        add(option.substr(at, end - at));
-        at = end + 1;
-    }
+    for (const std::string_view words : readings_of(option)) add(words);
     return values;
 }
 
@@ -152,8 +140,7 @@ bool is_for_more_than_a_scene(const fs::path& folder, const fs::path& home) {
     if (::stat(folder.c_str(), &status) == 0 && (status.st_mode & S_ISVTX) != 0) return true;
     if (real == real.root_path()) return true;
     if (home.empty()) return false;
-    const fs::path inside = fs::weakly_canonical(home, error).lexically_relative(real);
-    return !inside.empty() && *inside.begin() != "..";
+    return lies_in(fs::weakly_canonical(home, error), real);
 }
 
 std::vector<fs::path> scene_folders(const FolderRequest& request) {

@@ -1,9 +1,9 @@
 #include "scene_writes.h"
 
+#include "file_text.h"
 #include "scene_files.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <regex>
 
@@ -56,9 +56,7 @@ namespace {
 void take_file(const fs::path& file, SceneWrites& all) {
     std::error_code error;
     if (fs::file_size(file, error) > most_scanned_bytes || error) return;
-    std::ifstream in(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    SceneWrites one = writes_in(text);
+    SceneWrites one = writes_in(text_of(file));
     all.any = all.any || one.any;
     std::move(one.names.begin(), one.names.end(), std::back_inserter(all.names));
 }
