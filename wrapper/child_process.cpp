@@ -66,8 +66,8 @@ bool has_children(const std::string& process) {
     });
 }
 
-// What all files in it take of the disk (holes take nothing); those that come and go meanwhile
-// count or not.
+// What all files in it take of the disk (holes take nothing, links are ours); those that come and
+// go meanwhile count or not.
 std::uint64_t bytes_in(const std::filesystem::path& folder) {
     std::uint64_t sum = 0;
     std::error_code error;
@@ -75,6 +75,7 @@ std::uint64_t bytes_in(const std::filesystem::path& folder) {
     for (; !error && it != std::filesystem::recursive_directory_iterator(); it.increment(error)) {
         struct stat status {};
         const bool known = ::lstat(it->path().c_str(), &status) == 0;
+        if (known && S_ISLNK(status.st_mode)) continue;
         const auto bytes = known ? static_cast<std::uint64_t>(status.st_blocks) * 512 : 0;
         sum += std::max(bytes, least_file_bytes);
     }

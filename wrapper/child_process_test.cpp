@@ -426,6 +426,10 @@ TEST_F(ChildProcessTest, FolderLimitHolds) {
     request.working_directory = folder.path();
     request.folder_limit = {folder.path(), 1000000};
     EXPECT_FALSE(run_to_end(request).filled_folder);
+    // The folder in which a scene that writes runs is made of links, which POV-Ray cannot make.
+    for (int i = 0; i < 300; ++i)
+        fs::create_symlink("/", folder.path() / ("link" + std::to_string(i)));
+    EXPECT_FALSE(run_to_end(request).filled_folder);
 }
 
 TEST_F(ChildProcessTest, CpuSecondsCountTheChildAndWhatItWaitedFor) {
