@@ -16,6 +16,7 @@ Exit codes: 0 ok, 1 mpipov behaves otherwise, 2 usage, 77 cannot be tested here.
 
 import json
 
+from fault_hydra import silent_at
 from fault_kills import KILLS, killed, soak
 from fault_place import (OTHER_VERSION, SECTIONS, THIS_VERSION, Place, disk_in, require_ended)
 from program_runs import TestFailure, argument_parser, report, require_success
@@ -182,6 +183,8 @@ def cases():
         "output_gone.own_work_folder": output_gone_with_own_work_folder,
         "output_gone.with_the_sections": output_gone_with_the_sections,
         "another_version": another_version,
+        "silent_hydra.at_the_start": silent_at("init", 5),
+        "silent_hydra.at_the_end": silent_at("finalize", 0),
     }
     for whom, signal in KILLS:
         found[f"killed.{whom}.{signal}"] = killed(whom, signal)

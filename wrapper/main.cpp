@@ -1,5 +1,6 @@
 // mpipov: parses the command line, and runs the coordinator (rank 0) and a worker (every rank).
 #include "confinement.h"
+#include "end_on_interrupt.h"
 #include "event_loop.h"
 #include "failure.h"
 #include "hydra.h"
@@ -232,7 +233,12 @@ int main(int argc, char** argv) {
     // Bands of pixels come and go: glibc would raise the threshold after the first one and keep the
     // later ones in a heap that fragments.
     mallopt(M_MMAP_THRESHOLD, 256 << 10);
-    MPI_Init(&argc, &argv);
+    {
+        // MPI's own threads must not take the signals either, so they are blocked before.
+        const EndOnInterrupt watch(static_cast<int>(Exit::interrupted));
+        int provided = 0;
+        MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+    }
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     int code = 0;
@@ -255,6 +261,7 @@ int main(int argc, char** argv) {
         std::fflush(nullptr);
         std::_Exit(code);
     }
+    const EndOnInterrupt watch(code);
     MPI_Finalize();
     return code;
 }
