@@ -1,9 +1,8 @@
 #!/usr/bin/python3
 """Are images that were rendered in sections bit-identical to the serial render?
 
-The scenes are Debian's examples (package povray-examples); exactness_cases.json lists them, the
-values of every dimension, and the cases of the default test run. A case is called
-SCHEDULE.npRANKS.SHAPE.SEAMS.AA, the reference of a scene AA.KIND, where KIND is `default`
+The scenes are Debian's examples (package povray-examples); exactness_cases.json lists them. A case
+is called SCHEDULE.npRANKS.SHAPE.SEAMS.AA, the reference of a scene AA.KIND, where KIND is `default`
 (povray +WT1) or `oneblock` (povray +WT1 +BSn, n the longer side), which is what halo reproduces.
 
     exactness.py list                  the tests of the default run, as CMakeLists.txt reads them
@@ -21,78 +20,12 @@ Exit codes: 0 ok, 1 a difference where none may be, 2 usage, 77 the scenes are n
 
 import itertools
 import json
-import os
 import re
-import sys
-from dataclasses import dataclass
-from pathlib import Path
 
-from program_runs import (Skip, TestFailure, argument_parser, fresh_folder, programs_of, report,
+from exactness_cases import CASES, Case, scene_arguments, scene_named, whole_product
+from exactness_results import describe, earlier_results, summary_command, write_results
+from program_runs import (TestFailure, argument_parser, fresh_folder, programs_of, report,
                           require_same_chunks, require_success)
-
-CASES = json.loads(Path(__file__).with_name("exactness_cases.json").read_text())
-EXAMPLES = Path(os.environ.get("MPIPOV_EXAMPLES", "/usr/share/doc/povray/examples"))
-BLOCK = 32  # edge of POV-Ray's render blocks: aligned sections are made of them
-CASE_NAME = re.compile(r"(static|dynamic)\.np(\d+)\.(columns|rows|tiles)\."
-                       r"(aligned|halo|plain)\.(off|AM1|AM2)")
-
-
-@dataclass(frozen=True)
-class Case:
-    schedule: str
-    ranks: int
-    shape: str
-    seams: str
-    aa: str
-
-    @staticmethod
-    def parse(name):
-        match = CASE_NAME.fullmatch(name)
-        if not match:
-            sys.exit(f"exactness: '{name}' is no case: SCHEDULE.npRANKS.SHAPE.SEAMS.AA")
-        schedule, ranks, shape, seams, aa = match.groups()
-        return Case(schedule, int(ranks), shape, seams, aa)
-
-    def name(self):
-        return f"{self.schedule}.np{self.ranks}.{self.shape}.{self.seams}.{self.aa}"
-
-    def reference(self):
-        return f"{self.aa}.{'oneblock' if self.seams == 'halo' else 'default'}"
-
-    def promise(self):
-        """`exact`, but with method 1, which looks at neighbouring pixels, where the edges lie off
-        the block grid: an overlap comes `close`, without one the seams show (`none`)."""
-        if self.seams == "aligned" or self.aa != "AM1":
-            return "exact"
-        return "close" if self.seams == "halo" else "none"
-
-    def sections(self, size):
-        """One a rank with static, more than ranks with dynamic, as far as the image has them."""
-        unit = BLOCK if self.seams == "aligned" else 1
-        across, down = (-(-side // unit) for side in size)
-        most = {"columns": across, "rows": down, "tiles": across * down}[self.shape]
-        wanted = self.ranks if self.schedule == "static" else 2 * self.ranks + 1
-        return min(most, max(2, wanted))
-
-    def arguments(self, size):
-        return ["--schedule", self.schedule, "--shape", self.shape, "--seams", self.seams,
-                "--sections", str(self.sections(size))]
-
-
-def scene_named(name, kind):
-    for scene in CASES[kind]:
-        if scene["name"] == name:
-            return scene
-    sys.exit(f"exactness: no scene '{name}' under '{kind}' in exactness_cases.json")
-
-
-def scene_arguments(scene, aa):
-    file = EXAMPLES / scene["file"]
-    if not file.is_file():
-        raise Skip(f"'{file}' is not there: install povray-examples (see ci/install-deps)")
-    width, height = scene["size"]
-    # Some include files that lie beside them, where POV-Ray does not look by itself.
-    return [file, f"+L{file.parent}", f"+W{width}", f"+H{height}", *CASES["antialiasing"][aa]]
 
 
 def reference_folder(options, scene):
@@ -188,15 +121,6 @@ def pinned_command(options):
                           f"the images are in {first} and {folder}")
 
 
-def whole_product(only):
-    for schedule, ranks, shape, seams, aa in itertools.product(
-            CASES["schedules"], CASES["ranks"], CASES["shapes"], CASES["seams"],
-            CASES["antialiasing"]):
-        case = Case(schedule, ranks, shape, seams, aa)
-        if all(str(getattr(case, key)) in values for key, values in only.items()):
-            yield case
-
-
 def matrix_command(options):
     if any(scene["name"] == options.scene for scene in CASES["pinned"]):
         return pinned_matrix(options)
@@ -223,15 +147,6 @@ def matrix_command(options):
     return 1 if broken or not results else 0
 
 
-def earlier_results(file, scene):
-    if not file.exists():
-        return []
-    matrix = json.loads(file.read_text())
-    if matrix["size"] != scene["size"]:
-        sys.exit(f"exactness: '{file}' is of another size, {matrix['size']}: remove it")
-    return matrix["results"]
-
-
 def pinned_matrix(options):
     scene = scene_named(options.scene, "pinned")
     pin_command(options)
@@ -240,45 +155,6 @@ def pinned_matrix(options):
         pinned_command(options)
     print(f"{scene['name']}: the same bits for every number of ranks and schedule")
     return 0
-
-
-def write_results(file, scene, results):
-    part = file.with_name(file.name + ".part")
-    part.write_text(json.dumps({"format": "mpipov-exactness", "version": 1,
-                                "scene": scene["name"], "size": scene["size"],
-                                "results": results}, indent=1) + "\n")
-    part.replace(file)
-
-
-def describe(result):
-    if result["identical"]:
-        return f"{result['case']}: identical"
-    at = result["largest"]
-    return (f"{result['case']}: {result['differing']} pixels differ, by up to "
-            f"{result['max_difference']:g} (x {at['x']}, y {at['y']}, {at['channel']})")
-
-
-def summary_command(options):
-    print(f"{'scene':<13}{'seams':<9}{'AA':<5}{'cases':>6}{'identical':>11}{'most pixels':>13}"
-          f"{'largest':>9}")
-    differing = {"exact": [], "close": [], "none": []}
-    for file in options.files:
-        matrix = json.loads(Path(file).read_text())
-        groups = {}
-        for result in matrix["results"]:
-            case = Case.parse(result["case"])
-            groups.setdefault((case.seams, case.aa), []).append(result)
-            if not result["identical"]:
-                differing[case.promise()].append(f"{matrix['scene']}.{describe(result)}")
-        for (seams, aa), group in sorted(groups.items()):
-            print(f"{matrix['scene']:<13}{seams:<9}{aa:<5}{len(group):>6}"
-                  f"{sum(r['identical'] for r in group):>11}"
-                  f"{max(r['differing'] for r in group):>13}"
-                  f"{max(r['max_difference'] for r in group):>9g}")
-    for title, cases in (("Differ with an overlap", differing["close"]),
-                         ("Differ where none may", differing["exact"])):
-        print("\n".join(["", f"{title}: {len(cases)}", *cases]))
-    return 1 if differing["exact"] else 0
 
 
 def list_command(_options):

@@ -4,9 +4,8 @@
 A scene that does not depend on the order of rendering must come out bit-identical with aligned
 seams, and with plain ones where antialiasing does not see the sections; one that does depend on it
 must be within its own noise. What is known to be otherwise must be so: a few pixels that the shadow
-cache decides (docs/povray.md), and radiosity whose sections share no samples. A case is called
-SCHEDULE.npRANKS, and .independent with samples not shared; what else varies (ranks, shape) is dealt out over the scenes, so that all values
-occur and no scene runs them all. SCENE is as in effects.fog.
+cache decides (docs/povray.md), and radiosity whose sections share no samples. SCENE is as in
+effects.fog; suite_cases.py has the cases.
 
     scene_suite.py list                 the tests, as CMakeLists.txt reads them
     scene_suite.py begin                an empty folder for the results of this run
@@ -22,81 +21,22 @@ Exit codes: 0 ok, 1 a verdict is not as promised, 2 usage.
 import json
 import re
 import sys
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from program_runs import (TestFailure, argument_parser, fresh_folder, measurement, programs_of,
                           report, run)
-from scene_list import all_scenes, scene_named
+from scene_list import scene_named
+from suite_cases import NOT_SHARED, cases_of, suite_scenes
 
-SHAPES = ("columns", "rows", "tiles")
-SCHEDULES = ("static", "dynamic")
-RANKS = (1, 2, 1, 3)  # a test with more than one has the machine to itself
-MOST_SECONDS = 2  # of CPU: scenes that take longer are rendered at half their size
-BLOCK = 32  # edge of POV-Ray's render blocks: aligned sections are made of them
 RENDERS = 12  # serial renders that tell a scene's noise
 # The fewer renders, the more damage passes for noise: more of the scene that mutations.py damages.
 # Of corner_jitter most are alike: to find many that differ would take long.
 RENDERS_OF = {"effects.area_light_jitter": 20, "effects.corner_jitter": 8}
-# Sections with samples of their own show at the seams (docs/radiosity.md): a verdict that did not see
-# them would see no other seam like them.
-NOT_SHARED = "independent"
 RARE = 1000  # one pixel in so many, at the most, with rare_pixels
 NO_SHADOWS = "+Q3"
 # What mpipov tells of a scene, besides whether it depends on the order of rendering.
 EFFECTS = ("antialiasing", "radiosity", "photons", "media", "isosurface", "transparency",
            "reflection")
-
-
-@dataclass(frozen=True)
-class Case:
-    schedule: str
-    ranks: int
-    shape: str
-    seams: tuple
-    sections: int
-    radiosity: str = "auto"
-
-    def name(self):
-        return f"{self.schedule}.np{self.ranks}{self.suffix()}"
-
-    def suffix(self):
-        return "" if self.radiosity == "auto" else f".{self.radiosity}"
-
-    def arguments(self):
-        return ["--radiosity", self.radiosity, "--schedule", self.schedule, "--ranks", self.ranks, "--shape", self.shape,
-                "--seams", ",".join(self.seams), "--sections", self.sections]
-
-    def verdicts(self):
-        """What the cases are called in seams.json."""
-        return {f"{self.schedule}.np{self.ranks}.{self.shape}.{kind}.g{self.sections}{self.suffix()}"
-                for kind in self.seams}
-
-
-def suite_scenes():
-    def half(scene):
-        return replace(scene, size=tuple(side // 2 for side in scene.size))
-
-    return [half(scene) if scene.serial_seconds > MOST_SECONDS else scene
-            for scene in all_scenes()]
-
-
-def cases_of(scene):
-    """One a schedule. Ranks and shape go round with the scene's place in the list."""
-    index = suite_scenes().index(scene)
-    seams = ("aligned",) if scene.order_dependent or scene.sees_sections() \
-        else ("aligned", "plain")
-    cases = []
-    for turn, schedule in enumerate(SCHEDULES):
-        ranks = RANKS[(index + turn) % len(RANKS)]
-        shape = SHAPES[index % len(SHAPES)]
-        across, down = (-(-side // BLOCK) for side in scene.size)
-        most = {"columns": across, "rows": down, "tiles": across * down}[shape]
-        # More sections than ranks with dynamic, so that there is something to hand out.
-        wanted = max(2, ranks) if schedule == "static" else 2 * ranks + 1
-        cases.append(Case(schedule, ranks, shape, seams, min(most, wanted)))
-    if scene.effects.get("radiosity"):
-        cases.append(replace(cases[-1], radiosity=NOT_SHARED))
-    return cases
 
 
 def renders_of(scene):
