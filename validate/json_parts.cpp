@@ -1,5 +1,7 @@
 #include "json_parts.h"
 
+#include "rect_corners.h"
+
 #include <cmath>
 
 namespace mpipov {
@@ -15,8 +17,7 @@ json text_json(const std::string& value) {
 }
 
 json rect_json(const Rect& rect) {
-    if (rect.empty()) return nullptr;
-    return {{"x0", rect.x0}, {"y0", rect.y0}, {"x1", rect.x1}, {"y1", rect.y1}};
+    return rect.empty() ? json() : corners_json(rect);
 }
 
 json line_json(const Seam& line) {

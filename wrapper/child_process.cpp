@@ -4,24 +4,19 @@
 #include "cpu_time.h"
 #include "guarded_spawn.h"
 #include "interrupt.h"
+#include "process_facts.h"
 
-#include <fcntl.h>
 #include <poll.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <ctime>
-#include <fstream>
 #include <stdexcept>
-#include <system_error>
 
 namespace mpipov {
 namespace {
@@ -33,54 +28,8 @@ constexpr double idle_seconds = 0.1;  // so that memory is sampled now and then
 constexpr double idle_seconds_without_pidfd = 0.01;
 constexpr double sample_seconds = 0.05;  // between two looks at the child's memory
 constexpr double folder_seconds = 0.2;   // and at its folder
-// What a file takes at least, so that a folder of very many empty ones is full too.
-constexpr std::uint64_t least_file_bytes = 4096;
 constexpr std::size_t drain_limit = 1
                                     << 20;  // bytes one poll() takes: a chatterbox must not hold us
-
-// The largest resident set since exec, bytes; 0 where /proc does not tell (a zombie has none).
-std::uint64_t peak_memory(const std::string& process) {
-    const Fd file(::open(("/proc/" + process + "/status").c_str(), O_RDONLY | O_CLOEXEC));
-    std::array<char, 4096> buffer{};
-    const ssize_t size = file.get() < 0 ? 0 : ::read(file.get(), buffer.data(), buffer.size());
-    if (size <= 0) return 0;
-    std::string_view text(buffer.data(), static_cast<std::size_t>(size));
-    constexpr std::string_view key = "VmHWM:";
-    const std::size_t at = text.find(key);
-    if (at == std::string_view::npos) return 0;
-    text.remove_prefix(at + key.size());
-    text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
-    std::uint64_t kibibytes = 0;
-    std::from_chars(text.data(), text.data() + text.size(), kibibytes);
-    return kibibytes * 1024;
-}
-
-// True too where the kernel does not tell.
-bool has_children(const std::string& process) {
-    std::error_code error;
-    const std::filesystem::directory_iterator threads(process + "/task", error);
-    if (error) return true;
-    return std::any_of(begin(threads), end(threads), [](const auto& thread) {
-        std::ifstream children(thread.path() / "children");
-        return !children || children.peek() != std::ifstream::traits_type::eof();
-    });
-}
-
-// What all files in it take of the disk (holes take nothing, links are ours); those that come and
-// go meanwhile count or not.
-std::uint64_t bytes_in(const std::filesystem::path& folder) {
-    std::uint64_t sum = 0;
-    std::error_code error;
-    std::filesystem::recursive_directory_iterator it(folder, error);
-    for (; !error && it != std::filesystem::recursive_directory_iterator(); it.increment(error)) {
-        struct stat status {};
-        const bool known = ::lstat(it->path().c_str(), &status) == 0;
-        if (known && S_ISLNK(status.st_mode)) continue;
-        const auto bytes = known ? static_cast<std::uint64_t>(status.st_blocks) * 512 : 0;
-        sum += std::max(bytes, least_file_bytes);
-    }
-    return sum;
-}
 
 }  // namespace
 
@@ -156,7 +105,7 @@ ChildProcess::State::~State() {
 }
 
 void ChildProcess::State::spawn(const ChildRequest& request) {
-    own_peak_ = peak_memory("self");
+    own_peak_ = peak_memory(::getpid());
     start_ = Clock::now();
     Spawned spawned = spawn_guarded(request);
     pid_ = spawned.pid;
@@ -220,36 +169,23 @@ void ChildProcess::State::reap() {
 void ChildProcess::State::sample_memory() {
     if (elapsed() < next_sample_) return;
     next_sample_ = elapsed() + sample_seconds;
-    sampled_peak_ = std::max(sampled_peak_, peak_memory(std::to_string(pid_)));
+    sampled_peak_ = std::max(sampled_peak_, peak_memory(pid_));
 }
 
 void ChildProcess::State::look_at_folder() {
     if (!folder_limit_ || kill_at_ || elapsed() < next_look_at_folder_) return;
     next_look_at_folder_ = elapsed() + folder_seconds;
-    if (bytes_in(folder_limit_->folder) <= folder_limit_->bytes) return;
+    if (disk_bytes_in(folder_limit_->folder) <= folder_limit_->bytes) return;
     result_.filled_folder = true;
     begin_termination();
 }
 
 double ChildProcess::State::cpu_seconds() const {
-    if (ended_) return result_.cpu_seconds;
-    clockid_t clock{};
-    timespec spent{};
-    if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &spent) != 0) return 0;
-    return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
+    return ended_ ? result_.cpu_seconds : cpu_seconds_of(pid_);
 }
 
 bool ChildProcess::State::has_file_open() const {
-    if (ended_) return false;
-    const std::string process = "/proc/" + std::to_string(pid_);
-    std::error_code error;
-    const std::filesystem::directory_iterator open(process + "/fd", error);
-    if (error || has_children(process)) return true;
-    return std::any_of(begin(open), end(open), [](const auto& file) {
-        std::error_code ignored;  // one that was closed meanwhile
-        return std::filesystem::status(file.path(), ignored).type() ==
-               std::filesystem::file_type::regular;
-    });
+    return !ended_ && may_have_file_open(pid_);
 }
 
 void ChildProcess::State::begin_termination() {
