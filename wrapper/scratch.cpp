@@ -1,5 +1,6 @@
 #include "scratch.h"
 
+#include "abandoned_scratch.h"
 #include "failure.h"
 
 #include <fmt/format.h>
@@ -10,6 +11,9 @@
 #include <system_error>
 
 namespace mpipov {
+
+// Longer than from making a folder to holding it.
+constexpr double young_seconds = 60;
 
 ScratchFolder::ScratchFolder(const std::string& purpose) {
     std::error_code error;
@@ -24,11 +28,13 @@ ScratchFolder::ScratchFolder(const std::string& purpose) {
                         base.string()));
     // POV-Ray may run in another folder than ours.
     base = std::filesystem::absolute(base);
-    std::string name = (base / fmt::format("mpipov-{}-XXXXXX", purpose)).string();
+    std::string name = (base / fmt::format("mpipov-{}.XXXXXX", purpose)).string();
     if (mkdtemp(name.data()) == nullptr)
         throw Failure(Exit::file, fmt::format("cannot make a temporary folder in '{}': {}",
                                               base.string(), std::strerror(errno)));
     path_ = name;
+    held_ = hold(path_);
+    remove_abandoned_scratch(base, young_seconds);
 }
 
 ScratchFolder::~ScratchFolder() {

@@ -1,6 +1,8 @@
 // A temporary folder of our own, removed with all that is in it.
 #pragma once
 
+#include "fd.h"
+
 #include <filesystem>
 #include <string>
 
@@ -9,7 +11,8 @@ namespace mpipov {
 class ScratchFolder {
   public:
     // Below TMPDIR, or /tmp: Debian's povray.conf lets POV-Ray write there and into the current
-    // folder, nowhere else. Throws Failure(Exit::file) where that is not possible.
+    // folder, nowhere else. Removes those that killed processes have left there. Throws
+    // Failure(Exit::file) where that is not possible.
     explicit ScratchFolder(const std::string& purpose);
     ~ScratchFolder();
     ScratchFolder(const ScratchFolder&) = delete;
@@ -19,6 +22,7 @@ class ScratchFolder {
 
   private:
     std::filesystem::path path_;
+    Fd held_;
 };
 
 }  // namespace mpipov

@@ -38,7 +38,7 @@ TEST(Scratch, IsThereAndOursAlone) {
     const ScratchFolder scratch("purpose");
     EXPECT_TRUE(fs::is_directory(scratch.path()));
     EXPECT_TRUE(fs::is_empty(scratch.path()));
-    EXPECT_THAT(scratch.path().filename().string(), testing::StartsWith("mpipov-purpose-"));
+    EXPECT_THAT(scratch.path().filename().string(), testing::StartsWith("mpipov-purpose."));
     const auto rights = fs::status(scratch.path()).permissions();
     EXPECT_EQ(rights & (fs::perms::group_all | fs::perms::others_all), fs::perms::none);
 }
