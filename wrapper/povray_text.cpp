@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <iterator>
 #include <regex>
 #include <unordered_set>
 
@@ -17,6 +18,7 @@ constexpr std::size_t shortest_wrapped_line = wrap_column * 3 / 4;
 // Of what regular expressions are asked: they recurse once a character (povray_lines.h). What they
 // look for is shorter, but for the file's name of the output line.
 constexpr std::size_t longest_searched = 512;
+constexpr std::string_view missing_file = "Error: Cannot find file '";
 constexpr std::string_view option_problem = "Problem with option setting";
 
 std::vector<std::string> split_lines(std::string_view text) {
@@ -251,9 +253,19 @@ std::string parse_error(std::string_view text) {
         // Right before "Cannot open input file." stands which file, as a possible error.
         return trim(i > 0 && is_possible_error(lines[i - 1]) ? lines[i - 1] : lines[i]);
     }
-    for (const std::string& line : lines)
-        for (const std::string_view start : general)
-            if (line.starts_with(start)) return trim(line);
+    const auto reason = std::find_if(lines.begin(), lines.end(), [&](const std::string& line) {
+        return std::any_of(std::begin(general), std::end(general),
+                           [&](std::string_view start) { return line.starts_with(start); });
+    });
+    if (reason != lines.end()) {
+        // Of an image or a font that is not there, only a possible error says which.
+        const auto file =
+            std::find_if(std::reverse_iterator(reason), lines.rend(), [](const std::string& line) {
+                return is_possible_error(line) && line.find(missing_file) != std::string::npos;
+            });
+        const bool is_named = file != lines.rend() && reason->ends_with("Cannot open file.");
+        return trim(is_named ? *file : *reason);
+    }
     for (auto line = lines.rbegin(); line != lines.rend(); ++line)
         if (!trim(*line).empty()) return trim(*line);
     return "it printed nothing";

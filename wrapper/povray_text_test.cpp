@@ -248,6 +248,9 @@ TEST(PovrayText, ErrorsSayWhatAndWhere) {
     EXPECT_THAT(parse_error(recorded("missing_include")),
                 AllOf(StartsWith("File 'missing_include.pov' line 2: "),
                       HasSubstr("no_such_file_anywhere.inc")));
+    EXPECT_THAT(parse_error(recorded("missing_image")),
+                AllOf(StartsWith("File 'missing_image.pov' line 2: "),
+                      HasSubstr("Cannot find file 'no_such_image.png'")));
     EXPECT_THAT(parse_error(recorded("missing_input")), HasSubstr("'no_such_scene.pov'"));
     EXPECT_EQ(parse_error(recorded("no_output_folder")), "Cannot create render state output file.");
     EXPECT_EQ(parse_error(recorded("unwritable")), "Cannot create render state output file.");
