@@ -114,6 +114,12 @@ class WorkerTest : public FakePovrayTest {
         return heard;
     }
 
+    // A section is done before its POV-Ray has ended.
+    void wait_until_launches_have_left() {
+        const auto begin = std::chrono::steady_clock::now();
+        while (files_left() > 0 && seconds_since(begin) < 30) look_after(0.01);
+    }
+
     std::string failure_of(int section = 0) {
         assign(section, {0, 0, 32, 48});
         const std::vector<Message> heard = listen();
@@ -220,6 +226,7 @@ TEST_F(WorkerTest, SendsThePixelsOfTheSectionAndThenItsTimes) {
         EXPECT_GE(done.head.at("cpu_seconds").get<double>(), 0);
         EXPECT_THAT(done.head.at("warnings").get<std::vector<std::string>>(),
                     ElementsAre(HasSubstr("a warning of the stand-in")));
+        wait_until_launches_have_left();
         EXPECT_EQ(files_left(), 0);
         ++id;
     }
