@@ -85,8 +85,14 @@ std::optional<Journal> begin_journal(const Options& options, const OutputPlace& 
 
 // So that every rank can render.
 Shipping bring_scene_to_all(const Options& options, const std::vector<std::string>& arguments,
-                            const Probe& probe, const MetRanks& met, Transport& transport) {
-    ShipRequest request{options.ship, scene_request(probe, arguments), arguments, {}};
+                            const Probe& probe, const MetRanks& met, const Confinement& confinement,
+                            Transport& transport) {
+    ShipRequest request{
+        options.ship,
+        scene_request(probe, arguments),
+        arguments,
+        [&](const std::filesystem::path& file) { return confinement.is_users(file); },
+        {}};
     // A radiosity cache of the user's, which the scene does not name.
     if (probe.result.own_cache)
         for (const auto& [key, value] : probe.settings)
@@ -179,7 +185,8 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     place.check();
 
     Canvas canvas = make_canvas(plan.record);
-    const Shipping shipping = bring_scene_to_all(options, arguments, probe, met, transport);
+    const Shipping shipping =
+        bring_scene_to_all(options, arguments, probe, met, worker.confinement(), transport);
     std::optional<Journal> journal = begin_journal(options, place, identity, plan);
     std::optional<Coordinator> coordinator;
     try {

@@ -170,7 +170,7 @@ Shipping ship_scene(const ShipRequest& request, Transport& transport) {
         throw Failure(Exit::file,
                       fmt::format("host {} {}: leave --ship off away, and it is sent",
                                   places.front().host, difference(ours, places.front().view)));
-    const Packing packing = pack_scene(request.scene, request.arguments, ours);
+    const Packing packing = pack_scene(request.scene, request.arguments, ours, request.may_go);
     for (const Place& place : places) require_absolute(packing, ours, place);
 
     Talk talk(transport, places, request.patience_seconds);
