@@ -122,7 +122,7 @@ void send_refusal(Transport& transport, const RankRecord& self, Exit code, const
 // MPI_Finalize would wait for a rank that does not answer, for ever where its host is gone.
 [[noreturn]] void abandon(const std::string& what) {
     complain(what);
-    // Without it the message was lost in one of five runs on a busy machine.
+    // hydra looks at the abort before it looks at what was said: one run of ten lost the message.
     constexpr double read_seconds = 3;
     wait_until_read(STDERR_FILENO, read_seconds);
     // MPI_Abort asks hydra on this host, which waits for mpiexec: on a host that is cut off the
