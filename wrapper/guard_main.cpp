@@ -110,9 +110,10 @@ void wait_for(pollfd* processes, nfds_t count, int milliseconds) {
     for (int descriptor = 0; descriptor < ruleset; ++descriptor) close(descriptor);
     pollfd* const parent = ends.data();
     wait_for(parent, ends.size(), -1);
-    // PROGRAM, which the kernel kills with the parent, may be seen to go before it.
-    constexpr int moment = 100;
-    if (parent->revents == 0) wait_for(parent, 1, moment);
+    // PROGRAM, which the kernel kills with the thread that started it, may be gone long before all
+    // of the parent is.
+    constexpr int moment = 50;
+    while (parent->revents == 0 && kill(-group, 0) == 0) wait_for(parent, 1, moment);
     if (parent->revents != 0) kill(-group, SIGKILL);
     _exit(0);
 }
