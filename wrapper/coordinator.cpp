@@ -234,7 +234,7 @@ void Coordinator::take_done(const Message& message) {
     const MessageFields fields(message.head);
     const double wall_seconds = fields.seconds("wall_seconds");
     const double cpu_seconds = fields.seconds("cpu_seconds");
-    const std::vector<std::string> warnings = fields.texts("warnings");
+    const std::vector<std::string> warnings = fields.all_said("warnings");
     Progress& progress = *source.progress;
     SectionRecord& record = progress.record;
     if (!setup_.gathers && progress.next_row != record.section.render.y1)
@@ -275,7 +275,7 @@ void Coordinator::take_failed(const Message& message) {
     const MessageFields fields(message.head);
     const double cpu_seconds = fields.seconds("cpu_seconds");
     const Exit code = fields.code("code");
-    const std::string why = fields.text("why");
+    const std::string why = fields.said("why");
     Progress& progress = *source.progress;
     const int id = progress.record.section.id;
     std::erase_if(progress.runs, [&](const Run& run) { return &run == source.run; });

@@ -102,7 +102,7 @@ void dispatch(const EventLoop& loop, const Message& message) {
     } else if (message.kind == MessageKind::refused) {
         const MessageFields fields(message.head);
         const Exit code = fields.code("code");
-        const std::string why = fields.text("why");
+        const std::string why = fields.said("why");
         // Whoever is interrupted, all are.
         throw Failure(code, code == Exit::interrupted
                                 ? why

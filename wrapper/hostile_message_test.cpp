@@ -27,7 +27,19 @@ namespace {
 
 using nlohmann::json;
 
-enum class Is { count, seconds, seconds_or_none, part, text, texts, flag, rect, code };
+enum class Is {
+    count,
+    seconds,
+    seconds_or_none,
+    part,
+    text,
+    texts,
+    said,
+    all_said,
+    flag,
+    rect,
+    code
+};
 
 const json empty = json::object(), list = json::array();
 
@@ -63,6 +75,10 @@ std::vector<json> bad_values(Is is, const json& good) {
             return {-0.1, 1.1, 1e300, "1", true, nullptr, list, empty};
         case Is::flag:
             return {0, 1, "true", nullptr, list, empty};
+        case Is::said:
+            return {1, true, nullptr, empty, {-1}, {256}, {list}};
+        case Is::all_said:
+            return {1, "a", true, nullptr, empty, {1}, {nullptr}, {empty}, {{256}}};
         case Is::text:
             return {1,     1.5, true,   nullptr, empty,   {-1},   {256},
                     {1.5}, {0}, {list}, {"a"},   {1, -1}, {true}, std::string("a\0b", 3)};
@@ -348,7 +364,7 @@ TEST_F(HostileMessageTest, Done) {
                       {"attempt", Is::count},
                       {"wall_seconds", Is::seconds},
                       {"cpu_seconds", Is::seconds},
-                      {"warnings", Is::texts}},
+                      {"warnings", Is::all_said}},
                      to_coordinator(true)});
 }
 
@@ -360,7 +376,7 @@ TEST_F(HostileMessageTest, Failed) {
                       {"attempt", Is::count},
                       {"cpu_seconds", Is::seconds},
                       {"code", Is::code},
-                      {"why", Is::text}},
+                      {"why", Is::said}},
                      to_coordinator()});
 }
 

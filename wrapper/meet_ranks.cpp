@@ -40,7 +40,7 @@ MetRanks meet_ranks(const RankRecord& rank0, int pool0, Transport& transport,
         const std::string host = fields.text("host");
         if (message->kind == MessageKind::refused)
             throw Failure(fields.code("code"),
-                          fmt::format("host {}: {}", host, fields.text("why")));
+                          fmt::format("host {}: {}", host, fields.said("why")));
         const auto peer = static_cast<std::size_t>(message->peer);
         if (message->kind != MessageKind::hello || known.at(peer))
             throw std::runtime_error(

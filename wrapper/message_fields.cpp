@@ -33,6 +33,24 @@ double real(const json& value, double least, double most) {
     return number;
 }
 
+const json& list(const json& value) {
+    if (!value.is_array()) throw std::runtime_error("is no list");
+    return value;
+}
+
+std::vector<std::string> list_of(const json& value, std::string (*one)(const json&)) {
+    std::vector<std::string> texts;
+    for (const json& text : list(value)) texts.push_back(one(text));
+    return texts;
+}
+
+std::string name_from_json(const json& value) {
+    std::string text = text_from_json(value);
+    if (text.find('\0') != std::string::npos)
+        throw std::runtime_error("is no text: it has a zero byte");
+    return text;
+}
+
 }  // namespace
 
 int MessageFields::number(const char* key, int least, int most) const {
@@ -82,21 +100,23 @@ Exit MessageFields::code(const char* key) const {
 }
 
 std::string MessageFields::text(const char* key) const {
-    return read(head_, key, text_from_json);
+    return read(head_, key, name_from_json);
 }
 
 std::vector<std::string> MessageFields::texts(const char* key) const {
-    std::vector<std::string> texts;
-    for (const json& text : array(key))
-        texts.push_back(read(head_, key, [&](const json&) { return text_from_json(text); }));
-    return texts;
+    return read(head_, key, [](const json& value) { return list_of(value, name_from_json); });
+}
+
+std::string MessageFields::said(const char* key) const {
+    return read(head_, key, text_from_json);
+}
+
+std::vector<std::string> MessageFields::all_said(const char* key) const {
+    return read(head_, key, [](const json& value) { return list_of(value, text_from_json); });
 }
 
 const json& MessageFields::array(const char* key) const {
-    return *read(head_, key, [](const json& value) {
-        if (!value.is_array()) throw std::runtime_error("is no list");
-        return &value;
-    });
+    return *read(head_, key, [](const json& value) { return &list(value); });
 }
 
 json text_to_json(const std::string& text) {
@@ -131,8 +151,6 @@ std::string text_from_json(const json& value) {
     } else {
         throw std::runtime_error("is no text");
     }
-    if (text.find('\0') != std::string::npos)
-        throw std::runtime_error("is no text: it has a zero byte");
     return text;
 }
 

@@ -32,8 +32,12 @@ class MessageFields {
     bool flag(const char* key) const;
     Rect rect(const char* key) const;
     Exit code(const char* key) const;  // of what did not work out
+    // Names and arguments, without a zero byte: nothing that the kernel is given may have one.
     std::string text(const char* key) const;
     std::vector<std::string> texts(const char* key) const;
+    // What is for people to read, and may have any.
+    std::string said(const char* key) const;
+    std::vector<std::string> all_said(const char* key) const;
     const nlohmann::json& array(const char* key) const;
 
   private:
@@ -41,7 +45,7 @@ class MessageFields {
 };
 
 // File names and arguments are bytes, and JSON holds UTF-8 alone: what is none goes as an array of
-// its bytes, and comes out as it was. No zero byte: nothing that the kernel is given may have one.
+// its bytes, and comes out as it was.
 nlohmann::json text_to_json(const std::string& text);
 nlohmann::json texts_to_json(const std::vector<std::string>& texts);
 // Throws std::runtime_error.

@@ -50,6 +50,15 @@ TEST(MessageFields, WhatIsWrongIsNamed) {
                 ThrowsMessage<std::runtime_error>(HasSubstr("it lacks 'host'")));
 }
 
+TEST(MessageFields, AZeroByteIsForWordsAlone) {
+    const std::string zero("a\0b", 3);
+    const json head = sent({{"one", zero}, {"all", {zero}}});
+    EXPECT_THROW(MessageFields(head).text("one"), std::runtime_error);
+    EXPECT_THROW(MessageFields(head).texts("all"), std::runtime_error);
+    EXPECT_EQ(MessageFields(head).said("one"), zero);
+    EXPECT_THAT(MessageFields(head).all_said("all"), testing::ElementsAre(zero));
+}
+
 // JSON would replace them.
 TEST(MessageFields, TextThatIsNoUtf8ArrivesAsItWas) {
     const std::vector<std::string> odd{"caf\xe9", "\xff\xfe", "\xc3", "schön", "", "[1]", "\x01"};

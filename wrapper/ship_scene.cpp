@@ -91,7 +91,7 @@ class Talk {
             const MessageFields fields(message.head);
             if (message.kind == MessageKind::refused)
                 throw Failure(fields.code("code"),
-                              fmt::format("host {}: {}", place.host, fields.text("why")));
+                              fmt::format("host {}: {}", place.host, fields.said("why")));
             return place;
         }
         throw std::runtime_error("a rank spoke of the scene's files that was not asked");
