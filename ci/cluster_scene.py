@@ -35,12 +35,14 @@ RUN_SECONDS = 300
 WATCH_SECONDS = 0.1
 GONE_SECONDS = 2
 SLOW_POVRAY = "/mnt/slow-povray"
-# A launch of a section waits before it begins, so that a run lasts on any machine: longer than a lost
-# host takes to be noticed, else the others would have copied its last sections by then.
+# A launch of a section waits before it begins, so that a run lasts on any machine.
 SLOW_SCRIPT = """#!/bin/sh
-case "$*" in *+SC0*|*+HI*|*version*) ;; *+WT1*+O*section*) sleep 6 ;; esac
+case "$*" in *+SC0*|*+HI*|*version*) ;; *+WT1*+O*section*) sleep {seconds} ;; esac
 exec povray "$@"
 """
+# Longer than a lost host takes to be noticed, else the others would have copied its last sections by
+# then.
+SLOW_SECONDS = 6
 
 
 def fill(host):
@@ -53,8 +55,8 @@ def fill(host):
     return home / "job"
 
 
-def slow_povray(host):
-    host.path(SLOW_POVRAY).write_text(SLOW_SCRIPT)
+def slow_povray(host, seconds=SLOW_SECONDS):
+    host.path(SLOW_POVRAY).write_text(SLOW_SCRIPT.format(seconds=seconds))
     host.path(SLOW_POVRAY).chmod(0o755)
 
 
@@ -71,13 +73,19 @@ def renderers(host):
     return [line for line in host.processes().values() if re.search("povray|mpipov", line)]
 
 
+def require_nothing_runs(hosts):
+    """Within the promised time. Seconds until it was so."""
+    begin = time.monotonic()
+    while any((left := {host.name: renderers(host) for host in hosts}).values()):
+        if time.monotonic() > begin + GONE_SECONDS:
+            raise TestFailure(f"processes are left after {GONE_SECONDS} s: {left}")
+        time.sleep(WATCH_SECONDS / 4)
+    return time.monotonic() - begin
+
+
 def require_nothing_left(hosts):
     """No process, no temporary file, and on no other host than the first one anything at all."""
-    end = time.monotonic() + GONE_SECONDS
-    while any((left := {host.name: renderers(host) for host in hosts}).values()):
-        if time.monotonic() > end:
-            raise TestFailure(f"processes are left: {left}")
-        time.sleep(WATCH_SECONDS)
+    require_nothing_runs(hosts)
     for host in hosts:
         if files := [str(file) for file in host.path("/tmp").iterdir()]:
             raise TestFailure(f"left on {host.name}: {files}")

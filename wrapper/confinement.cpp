@@ -136,8 +136,16 @@ Confinement::Confinement(const Options& options, const HostResources& host, cons
     : on_(true), memory_(options.memory_limit), disk_(options.disk_limit), host_(host) {
     const fs::path home = home_of_user();
     const fs::path settings = settings_of_user(home);
+    std::error_code error;
+    const fs::path run_folder = fs::current_path(error);
+    FileAccess scene;
+    scene.read = scene_folders({options.povray_arguments, run_folder, home, settings});
+    resolve_links(scene);
+    users_ = scene.read;
     environment_ = {{"HOME", write_configuration(own).string()}};
     if (!settings.empty()) environment_.emplace_back("POVINI", settings.string());
+    for (const fs::path& path : options.allow_read)
+        users_.push_back(fs::weakly_canonical(path, error));
     off_ = options.confine == Confining::off;
     if (off_) return;
     if (!can_restrict_files()) {
@@ -148,8 +156,6 @@ Confinement::Confinement(const Options& options, const HostResources& host, cons
     }
     require_present("--allow-read", options.allow_read);
     require_present("--allow-write", options.allow_write);
-    std::error_code error;
-    const fs::path run_folder = fs::current_path(error);
     const fs::path program = find_program(options.povray);
     program_ = files_of_program(program);
     if (is_for_more_than_a_scene(program.parent_path(), home))
@@ -160,9 +166,6 @@ Confinement::Confinement(const Options& options, const HostResources& host, cons
         program_.write.push_back(fs::absolute(path, error));
     program_.read.push_back(own / "home");
     resolve_links(program_);
-    FileAccess scene;
-    scene.read = scene_folders({options.povray_arguments, run_folder, home, settings});
-    resolve_links(scene);
     files_ = program_;
     files_->read.insert(files_->read.end(), scene.read.begin(), scene.read.end());
     search(run_folder, options.povray_arguments);
@@ -248,6 +251,13 @@ ChildRequest Confinement::request(LaunchNeeds needs) const {
             make_writable_view(needs.folder / "view", searched_.front(), writes_.names);
     request.files->read.insert(request.files->read.end(), needs.reads.begin(), needs.reads.end());
     return request;
+}
+
+bool Confinement::is_users(const fs::path& file) const {
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(file, error);
+    // Of a folder that is a link still the kernel follows none either.
+    return std::ranges::any_of(users_, [&](const fs::path& path) { return lies_in(real, path); });
 }
 
 bool Confinement::may_read(const fs::path& file) const {

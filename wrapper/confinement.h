@@ -72,6 +72,11 @@ class Confinement {
     // What the user should know before he waits for the image; empty: nothing.
     std::string note() const;
 
+    // Whether a file, links followed, is one that the user named, or lies in a folder that he named
+    // (scene_folders.h, --allow-read): what a launch reads besides the system's, and all of it that
+    // may leave this host. The same with --confine off.
+    bool is_users(const std::filesystem::path& file) const;
+
     // What a user can do about a launch that failed with this text of POV-Ray's: a sentence in
     // parentheses with a blank before it where a limit of ours was the cause, else empty.
     std::string way_out(std::string_view error) const;
@@ -86,7 +91,8 @@ class Confinement {
     bool on_ = false, off_ = false;  // limits at all; files left alone because the user says so
     FileAccess program_;             // what any scene may
     std::optional<FileAccess> files_;
-    std::filesystem::path run_folder_;  // of a copy; empty: ours
+    std::vector<std::filesystem::path> users_;  // see is_users()
+    std::filesystem::path run_folder_;          // of a copy; empty: ours
     std::vector<std::pair<std::string, std::string>> environment_;
     std::vector<std::filesystem::path> searched_;  // for names that are relative
     SceneWrites writes_;

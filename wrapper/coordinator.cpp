@@ -1,6 +1,7 @@
 #include "coordinator.h"
 
 #include "failure.h"
+#include "message_fields.h"
 #include "never_back.h"
 
 #include <fmt/format.h>
@@ -59,9 +60,9 @@ Coordinator::Coordinator(CoordinatorSetup setup, Transport& transport, Canvas& c
 
 void Coordinator::start() {
     const nlohmann::json common{
-        {"povray", setup_.job.povray},
-        {"user_arguments", setup_.job.user_arguments},
-        {"format_arguments", setup_.job.format_arguments},
+        {"povray", text_to_json(setup_.job.povray)},
+        {"user_arguments", texts_to_json(setup_.job.user_arguments)},
+        {"format_arguments", texts_to_json(setup_.job.format_arguments)},
         {"threads", setup_.job.threads},
         {"block", setup_.job.block},
         {"width", setup_.image.width},
@@ -76,10 +77,10 @@ void Coordinator::start() {
     for (std::size_t rank = 0; rank < setup_.ranks.size(); ++rank) {
         nlohmann::json head = common;
         if (const auto copy = setup_.shipped.copy_for(rank); !copy.empty()) {
-            head["user_arguments"] = setup_.shipped.arguments;
-            head["copy"] = copy.string();
-            head["folder"] = setup_.shipped.folder;
-            head["ini"] = setup_.shipped.ini;
+            head["user_arguments"] = texts_to_json(setup_.shipped.arguments);
+            head["copy"] = text_to_json(copy.string());
+            head["folder"] = text_to_json(setup_.shipped.folder);
+            head["ini"] = text_to_json(setup_.shipped.ini);
         }
         transport_.send({MessageKind::job, static_cast<int>(rank), std::move(head), {}});
     }
@@ -147,7 +148,7 @@ void Coordinator::handle(const Message& message) {
         case MessageKind::band:
             take_band(message);
             break;
-        case MessageKind::cache:
+        case MessageKind::samples:
             take_samples(message);
             break;
         case MessageKind::done:
@@ -166,8 +167,10 @@ void Coordinator::handle(const Message& message) {
 }
 
 Coordinator::Source Coordinator::source_of(const Message& message) {
-    const int id = message.head.at("section"), attempt = message.head.at("attempt");
-    if (id < 0 || id >= static_cast<int>(sections_.size()))
+    const MessageFields fields(message.head);
+    const int id = fields.number("section", 0, most_sections);
+    const int attempt = fields.number("attempt", 0, most_attempts);
+    if (id >= static_cast<int>(sections_.size()))
         throw std::runtime_error(fmt::format("rank {} sent an unknown section", message.peer));
     Progress& progress = sections_[static_cast<std::size_t>(id)];
     for (Run& run : progress.runs)
@@ -187,7 +190,7 @@ void Coordinator::set_fraction(Progress& progress, double fraction) {
 void Coordinator::take_progress(const Message& message) {
     const Source source = source_of(message);
     if (source.run == nullptr) return;
-    source.run->fraction = message.head.at("fraction");
+    source.run->fraction = MessageFields(message.head).part("fraction");
     set_fraction(*source.progress, std::max(source.progress->fraction, source.run->fraction));
 }
 
@@ -200,7 +203,7 @@ void Coordinator::take_band(const Message& message) {
     Progress& progress = *source.progress;
     keep_only(progress, *source.run);
     const Section& section = progress.record.section;
-    const Rect rect = rect_from_json(message.head.at("rect"));
+    const Rect rect = MessageFields(message.head).rect("rect");
     if (rect.empty() || intersect(rect, section.render) != rect)
         throw std::runtime_error(
             fmt::format("rank {} sent pixels outside of section {}", message.peer, section.id));
@@ -228,6 +231,10 @@ void Coordinator::take_band(const Message& message) {
 void Coordinator::take_done(const Message& message) {
     const Source source = source_of(message);
     if (source.run == nullptr) return take_end_of_loser(message);
+    const MessageFields fields(message.head);
+    const double wall_seconds = fields.seconds("wall_seconds");
+    const double cpu_seconds = fields.seconds("cpu_seconds");
+    const std::vector<std::string> warnings = fields.all_said("warnings");
     Progress& progress = *source.progress;
     SectionRecord& record = progress.record;
     if (!setup_.gathers && progress.next_row != record.section.render.y1)
@@ -238,9 +245,9 @@ void Coordinator::take_done(const Message& message) {
     record.attempts = source.run->attempt;
     record.start = source.run->start;
     record.end = clock_();
-    record.wall_seconds = message.head.at("wall_seconds");
-    record.cpu_seconds = message.head.at("cpu_seconds");
-    for (const std::string& warning : message.head.at("warnings").get<std::vector<std::string>>())
+    record.wall_seconds = wall_seconds;
+    record.cpu_seconds = cpu_seconds;
+    for (const std::string& warning : warnings)
         if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end())
             warnings_.push_back(warning);
     progress.runs.clear();
@@ -265,18 +272,21 @@ void Coordinator::take_done(const Message& message) {
 void Coordinator::take_failed(const Message& message) {
     const Source source = source_of(message);
     if (source.run == nullptr) return take_end_of_loser(message);
+    const MessageFields fields(message.head);
+    const double cpu_seconds = fields.seconds("cpu_seconds");
+    const Exit code = fields.code("code");
+    const std::string why = fields.said("why");
     Progress& progress = *source.progress;
     const int id = progress.record.section.id;
     std::erase_if(progress.runs, [&](const Run& run) { return &run == source.run; });
-    end_launch(message.peer, message.head.at("cpu_seconds"));
+    end_launch(message.peer, cpu_seconds);
     schedule_.failed(id, message.peer);
     // Where another rank has it under way too, that may still come out well.
     if (progress.runs.empty() && schedule_.failures(id) > setup_.retries)
         throw Failure(
-            static_cast<Exit>(message.head.at("code").get<int>()),
+            code,
             fmt::format("section {} failed {} times, last on {}: {}", id, schedule_.failures(id),
-                        setup_.ranks[static_cast<std::size_t>(message.peer)].host,
-                        message.head.at("why").get<std::string>()));
+                        setup_.ranks[static_cast<std::size_t>(message.peer)].host, why));
     assign_to_all();
 }
 

@@ -103,7 +103,7 @@ TEST(CoordinatorCache, PixelsAndSamplesAreNotMistakenForEachOther) {
         setup.gathers = gathers;
         Rig rig(setup);
         rig.coordinator().start();
-        const MessageKind wrong = gathers ? MessageKind::band : MessageKind::cache;
+        const MessageKind wrong = gathers ? MessageKind::band : MessageKind::samples;
         EXPECT_THROW(rig.coordinator().handle({wrong, 0, {{"section", 0}, {"attempt", 1}}, {}}),
                      std::runtime_error);
     }

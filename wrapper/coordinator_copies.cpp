@@ -1,6 +1,7 @@
 // The coordinator's care for the end of a run: idle ranks copy the section that would end last.
 #include "coordinator.h"
 #include "launch_costs.h"
+#include "message_fields.h"
 
 #include <fmt/format.h>
 
@@ -112,11 +113,14 @@ void Coordinator::keep_only(Progress& progress, const Run& winner) {
 }
 
 void Coordinator::take_end_of_loser(const Message& message) {
-    const int id = message.head.at("section"), attempt = message.head.at("attempt");
+    const MessageFields fields(message.head);
+    const int id = fields.number("section", 0, most_sections);
+    const int attempt = fields.number("attempt", 0, most_attempts);
+    const double cpu_seconds = fields.seconds("cpu_seconds");
     if (losers_.erase({id, attempt, message.peer}) == 0)
         throw std::runtime_error(
             fmt::format("rank {} ended section {} that it was not told to", message.peer, id));
-    end_launch(message.peer, message.head.at("cpu_seconds"));
+    end_launch(message.peer, cpu_seconds);
     assign_to_all();
 }
 

@@ -71,7 +71,8 @@ TEST_F(ProtocolTest, TakesWhatIsRight) {
 }
 
 TEST_F(ProtocolTest, RefusesUnknownSections) {
-    for (const int id : {-1, 4, 1'000'000}) refused(band(1, id, render), "unknown section");
+    for (const int id : {4, 1'000'000}) refused(band(1, id, render), "unknown section");
+    refused(band(1, -1, render), "'section': must be from 0");
 }
 
 TEST_F(ProtocolTest, RefusesAnothersSection) {
@@ -79,7 +80,7 @@ TEST_F(ProtocolTest, RefusesAnothersSection) {
     refused(band(1, 0, {0, 0, 12, 10}), "was not given");
     refused(band(1, 3, {28, 0, 40, 10}), "was not given");
     refused(done(0, 1), "was not given");
-    refused(message(MessageKind::failed, 0, 1, {{"why", "no"}, {"cpu_seconds", 0}}),
+    refused(message(MessageKind::failed, 0, 1, {{"why", "no"}, {"code", 3}, {"cpu_seconds", 0}}),
             "was not given");
     refused(message(MessageKind::progress, 0, 1, {{"fraction", 0.5}}), "was not given");
 }
@@ -91,7 +92,7 @@ TEST_F(ProtocolTest, RefusesOtherAttempts) {
 
 TEST_F(ProtocolTest, RefusesAnAttemptThatHasFailed) {
     // Rank 0 takes section 2 when it is free, and the failed section 1 after that.
-    handle(message(MessageKind::failed, 1, 1, {{"why", "no"}, {"cpu_seconds", 0}}));
+    handle(message(MessageKind::failed, 1, 1, {{"why", "no"}, {"code", 3}, {"cpu_seconds", 0}}));
     refused(band(1, 1, render), "was not given");
     handle(band(0, 0, {0, 0, 12, 10}));
     handle(done(0, 0));

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <ctime>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 
 namespace mpipov {
@@ -195,13 +196,14 @@ TEST(Coordinator, TheFractionFollowsTheLaunchesAndNeverFalls) {
     };
     say(MessageKind::progress, 1, {{"fraction", 0.5}});
     EXPECT_DOUBLE_EQ(coordinator.fraction(), 0.125);
-    say(MessageKind::failed, 1, {{"why", "no"}, {"cpu_seconds", 0.0}});
+    say(MessageKind::failed, 1, {{"why", "no"}, {"code", 3}, {"cpu_seconds", 0.0}});
     EXPECT_DOUBLE_EQ(coordinator.fraction(), 0.125);
     say(MessageKind::progress, 2, {{"fraction", 0.25}});
     EXPECT_DOUBLE_EQ(coordinator.fraction(), 0.125);
     say(MessageKind::progress, 2, {{"fraction", 0.75}});
     EXPECT_DOUBLE_EQ(coordinator.fraction(), 0.1875);
-    say(MessageKind::progress, 2, {{"fraction", 17}});
+    EXPECT_THROW(say(MessageKind::progress, 2, {{"fraction", 17}}), std::runtime_error);
+    say(MessageKind::progress, 2, {{"fraction", 1}});
     EXPECT_DOUBLE_EQ(coordinator.fraction(), 0.25);
     EXPECT_EQ(coordinator.sections_done(), 0);
     EXPECT_EQ(coordinator.sections_total(), 4);

@@ -73,7 +73,7 @@ class Rig {
         const bool is_for_worker =
             message->kind == MessageKind::job || message->kind == MessageKind::assign ||
             message->kind == MessageKind::cancel || message->kind == MessageKind::stop ||
-            (message->kind == MessageKind::cache && !message->head.contains("section"));
+            message->kind == MessageKind::cache;
         if (is_for_worker) return worker.handle(*message);
         const double before = coordinator_.fraction();
         coordinator_.handle(*message);

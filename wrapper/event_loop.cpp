@@ -3,6 +3,7 @@
 #include "failure.h"
 #include "heartbeat.h"
 #include "interrupt.h"
+#include "message_fields.h"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -19,13 +20,11 @@ constexpr int shortest_sleep_ms = 1, longest_sleep_ms = 25;
 // Nothing but a child's end, which ends the sleep, can happen to a rank that is alone.
 constexpr int longest_sleep_alone_ms = 100;
 
-// Of a cache that is sent to be read, not of samples that a section has taken.
 bool is_for_worker(const Message& message) {
     const MessageKind kind = message.kind;
     return kind == MessageKind::job || kind == MessageKind::assign || kind == MessageKind::cancel ||
            kind == MessageKind::stop || kind == MessageKind::look || kind == MessageKind::pack ||
-           kind == MessageKind::piece ||
-           (kind == MessageKind::cache && !message.head.contains("section"));
+           kind == MessageKind::piece || kind == MessageKind::cache;
 }
 
 double seconds_now() {
@@ -46,12 +45,11 @@ class Watch {
     void heard(const Message& message) {
         beat_.heard(message.peer, seconds_now());
         if (message.kind != MessageKind::alive || is_rank_0()) return;
-        const nlohmann::json& within = message.head.at("again_within");
-        on_ = !within.is_null();
+        const auto within = MessageFields(message.head).seconds_or_none("again_within");
+        on_ = within.has_value();
         if (on_) {
-            const double seconds = within.get<double>();
-            beat_ = Heartbeat(loop_.transport.size(), seconds);
-            beat_.watch(message.peer, seconds_now(), seconds);
+            beat_ = Heartbeat(loop_.transport.size(), *within);
+            beat_.watch(message.peer, seconds_now(), *within);
             say(0, {});
         } else {
             beat_.ignore(message.peer);
@@ -102,12 +100,13 @@ void dispatch(const EventLoop& loop, const Message& message) {
     if (is_for_worker(message)) {
         loop.worker.handle(message);
     } else if (message.kind == MessageKind::refused) {
-        const auto code = static_cast<Exit>(message.head.at("code").get<int>());
-        const auto why = message.head.at("why").get<std::string>();
+        const MessageFields fields(message.head);
+        const Exit code = fields.code("code");
+        const std::string why = fields.said("why");
         // Whoever is interrupted, all are.
         throw Failure(code, code == Exit::interrupted
                                 ? why
-                                : fmt::format("host {}: {}", message.head.value("host", "?"), why));
+                                : fmt::format("host {}: {}", fields.text("host"), why));
     } else if (loop.coordinator != nullptr) {
         loop.coordinator->handle(message);
     }

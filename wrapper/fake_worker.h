@@ -130,7 +130,7 @@ class FakeWorker {
             launch.next_row = first ? render.y0 + 1 : render.y1;
             if (render.height() == 1) launch.next_row = render.y1;
             const auto half = render.height() == 1 ? text.size() : text.size() / 2;
-            send(launch, MessageKind::cache, nlohmann::json::object(),
+            send(launch, MessageKind::samples, nlohmann::json::object(),
                  first ? std::vector<std::byte>(bytes, bytes + half)
                        : std::vector<std::byte>(bytes + half, bytes + text.size()));
             return false;

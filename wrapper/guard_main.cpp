@@ -5,14 +5,21 @@
 // PROGRAM is held to ever after (landlock.h); else "free". posix_spawn cannot do any of this. Needs
 // no library: it runs before every launch of POV-Ray. Exits with 127 where it cannot become
 // PROGRAM.
+//
+// The kernel kills PROGRAM alone. Where that is a script, it may have started POV-Ray as a child,
+// so a second guard stays behind for it: it kills the process group when the parent dies.
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -60,6 +67,72 @@ void restrict_files(const char* program) {
     close(ruleset);
 }
 
+bool begins_as_script(const char* file) {
+    std::array<char, 2> begin{};
+    const int descriptor = access(file, X_OK) == 0 ? open(file, O_RDONLY | O_CLOEXEC) : -1;
+    if (descriptor < 0) return false;
+    const ssize_t count = read(descriptor, begin.data(), begin.size());
+    close(descriptor);
+    return count == 2 && begin[0] == '#' && begin[1] == '!';
+}
+
+// As execvp() finds it.
+bool is_script(const char* program) {
+    if (std::strchr(program, '/') != nullptr) return begins_as_script(program);
+    const char* path = std::getenv("PATH");
+    for (const char* folder = path == nullptr ? "/bin:/usr/bin" : path; *folder != '\0';) {
+        const auto length = static_cast<int>(std::strcspn(folder, ":"));
+        std::array<char, PATH_MAX> file{};
+        const int written =
+            std::snprintf(file.data(), file.size(), "%.*s/%s", length, folder, program);
+        if (written > 0 && static_cast<std::size_t>(written) < file.size() &&
+            access(file.data(), X_OK) == 0)
+            return begins_as_script(file.data());
+        folder += length;
+        if (*folder == ':') ++folder;
+    }
+    return false;
+}
+
+pollfd end_of(pid_t process) {
+    return {static_cast<int>(syscall(SYS_pidfd_open, process, 0)), POLLIN, 0};
+}
+
+void wait_for(pollfd* processes, nfds_t count, int milliseconds) {
+    while (poll(processes, count, milliseconds) < 0 && errno == EINTR) {
+    }
+}
+
+// Until either is gone; the group goes with the parent. Not in the group itself, whose end is
+// waited for; the launch's output is not its own.
+[[noreturn]] void stay_behind(std::array<pollfd, 2> ends, pid_t group) {
+    setsid();
+    for (int descriptor = 0; descriptor < ruleset; ++descriptor) close(descriptor);
+    pollfd* const parent = ends.data();
+    wait_for(parent, ends.size(), -1);
+    // PROGRAM, which the kernel kills with the thread that started it, may be gone long before all
+    // of the parent is.
+    constexpr int moment = 50;
+    while (parent->revents == 0 && kill(-group, 0) == 0) wait_for(parent, 1, moment);
+    if (parent->revents != 0) kill(-group, SIGKILL);
+    _exit(0);
+}
+
+// By a process between, so that PROGRAM has no child that it did not start. Where the kernel has no
+// pidfd, or no process is to be had, there is none.
+void leave_one_behind(pid_t parent) {
+    const pid_t program = getpid();
+    // Before anything of PROGRAM can be seen: who is gone then has no descriptor any more.
+    const std::array<pollfd, 2> ends{end_of(parent), end_of(program)};
+    if (ends[0].fd < 0 || ends[1].fd < 0) return;
+    const pid_t between = fork();
+    if (between == 0) {
+        if (fork() == 0) stay_behind(ends, program);
+        _exit(0);
+    }
+    if (between > 0) waitpid(between, nullptr, 0);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -80,6 +153,8 @@ int main(int argc, char** argv) {
     if (static_cast<unsigned long long>(getppid()) != parent) {
         fail("its parent is gone, not starting", program[0], ESRCH);
     }
+
+    if (is_script(program[0])) leave_one_behind(static_cast<pid_t>(parent));
 
     limit(RLIMIT_CORE, "core size", 0);
     if (file_size != 0) limit(RLIMIT_FSIZE, "file size", file_size);

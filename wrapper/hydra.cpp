@@ -1,9 +1,12 @@
 #include "hydra.h"
 
 #include <poll.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <string>
 #include <string_view>
@@ -26,6 +29,18 @@ void take_leave_of_hydra() {
         const ssize_t count = ::read(fd, answer.data(), answer.size());
         if (count <= 0 || answer[static_cast<std::size_t>(count) - 1] == '\n') return;
     }
+}
+
+bool wait_until_read(int fd, double seconds) {
+    using Seconds = std::chrono::duration<double>;
+    struct stat status {};
+    if (::fstat(fd, &status) != 0 || !S_ISFIFO(status.st_mode)) return true;
+    const auto begin = std::chrono::steady_clock::now();
+    for (int unread = 0; ::ioctl(fd, FIONREAD, &unread) == 0 && unread > 0;) {
+        if (Seconds(std::chrono::steady_clock::now() - begin).count() > seconds) return false;
+        ::poll(nullptr, 0, 1);
+    }
+    return true;
 }
 
 }  // namespace mpipov

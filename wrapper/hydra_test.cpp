@@ -6,9 +6,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <string>
+#include <thread>
 
 namespace mpipov {
 namespace {
@@ -60,6 +62,29 @@ TEST_F(HydraTest, WhereHydraIsGoneItIsNoMatter) {
     ::shutdown(ends_[0], SHUT_RDWR);
     take_leave_of_hydra();
     ::signal(SIGPIPE, SIG_DFL);
+}
+
+TEST(WaitUntilRead, WaitsForTheReaderOfAPipe) {
+    std::array<int, 2> pipe{};
+    ASSERT_EQ(::pipe(pipe.data()), 0);
+    EXPECT_TRUE(wait_until_read(pipe[1], 0)) << "there is nothing to read";
+    ASSERT_EQ(::write(pipe[1], "last words", 10), 10);
+    EXPECT_FALSE(wait_until_read(pipe[1], 0.01)) << "nobody reads it";
+    std::jthread reader([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        std::array<char, 10> text{};
+        EXPECT_EQ(::read(pipe[0], text.data(), text.size()), 10);
+    });
+    EXPECT_TRUE(wait_until_read(pipe[1], 60));
+    reader.join();
+    for (const int end : pipe) ::close(end);
+}
+
+TEST(WaitUntilRead, IsForPipesAlone) {
+    const int file = ::open("/proc/self/exe", O_RDONLY | O_CLOEXEC);
+    EXPECT_TRUE(wait_until_read(file, 60));
+    ::close(file);
+    EXPECT_TRUE(wait_until_read(-1, 60));
 }
 
 }  // namespace

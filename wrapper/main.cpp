@@ -123,6 +123,9 @@ void send_refusal(Transport& transport, const RankRecord& self, Exit code, const
 // MPI_Finalize would wait for a rank that does not answer, for ever where its host is gone.
 [[noreturn]] void abandon(const std::string& what) {
     complain(what);
+    // hydra looks at the abort before it looks at what was said: one run of ten lost the message.
+    constexpr double read_seconds = 3;
+    wait_until_read(STDERR_FILENO, read_seconds);
     // MPI_Abort asks hydra on this host, which waits for mpiexec: on a host that is cut off the
     // alarm ends us.
     constexpr unsigned abort_seconds = 2;

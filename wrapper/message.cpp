@@ -54,16 +54,6 @@ Message unpack(std::span<const std::byte> bytes, int from) {
     return message;
 }
 
-int int_from_json(const nlohmann::json& json, int least, int most) {
-    try {
-        const int number = whole_number<int>(json);
-        if (number >= least && number <= most) return number;
-    } catch (const std::runtime_error&) {
-        // Said in our own words.
-    }
-    throw std::runtime_error("a message between ranks has an impossible number");
-}
-
 nlohmann::json rect_to_json(const Rect& r) {
     return nlohmann::json::array({r.x0, r.y0, r.x1, r.y1});
 }

@@ -15,7 +15,8 @@ enum class MessageKind : unsigned char {
     assign,     // coordinator: render this section
     progress,   // worker: how far a section is
     band,       // worker: some rows of a section's pixels, in the body
-    cache,      // both: some bytes of a radiosity cache, in the body
+    cache,      // coordinator: some bytes of a radiosity cache to be read, in the body
+    samples,    // worker: some of those that a section has gathered, in the body
     done,       // worker: all bands of a section were sent; its times
     failed,     // worker: why a section did not work out
     cancel,     // coordinator: another rank was first with this section
@@ -47,9 +48,6 @@ constexpr std::size_t max_message_bytes = max_band_bytes + (std::size_t{8} << 20
 std::vector<std::byte> pack(const Message& message);
 // Throws std::runtime_error where the bytes are no message of ours.
 Message unpack(std::span<const std::byte> bytes, int from);
-
-// A whole number within these bounds. Throws std::runtime_error where it is anything else.
-int int_from_json(const nlohmann::json& json, int least, int most);
 
 nlohmann::json rect_to_json(const struct Rect& rect);
 // Throws std::runtime_error where it is anything else than four whole numbers from 0.

@@ -116,14 +116,5 @@ TEST(Message, AHeadOfBracketsIsRefused) {
     EXPECT_THROW(unpack(bytes, 0), std::runtime_error);
 }
 
-TEST(Message, NumbersAreWholeAndWithinTheirBounds) {
-    EXPECT_EQ(int_from_json(7, 0, 10), 7);
-    EXPECT_EQ(int_from_json(0U, 0, 10), 0);
-    for (const nlohmann::json& bad :
-         {nlohmann::json(-1), nlohmann::json(11), nlohmann::json(1.0), nlohmann::json("1"),
-          nlohmann::json(), nlohmann::json(~0ULL), nlohmann::json(1LL << 40)})
-        EXPECT_THROW(int_from_json(bad, 0, 10), std::runtime_error) << bad;
-}
-
 }  // namespace
 }  // namespace mpipov

@@ -2,7 +2,6 @@
 
 #include "failure.h"
 #include "file_text.h"
-#include "inside.h"
 #include "packed_paths.h"
 #include "sha1_digits.h"
 
@@ -20,40 +19,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* ini_name = "povray.ini";  // beside the copy of the file tree
 
-fs::path real_path(const fs::path& path) {
-    std::error_code error;
-    return fs::weakly_canonical(fs::absolute(path), error);
-}
-
 std::vector<fs::path> own_library_paths(const SceneRequest& request) {
     std::vector<fs::path> paths = request.library_paths;
     std::erase_if(paths, [](const fs::path& path) { return is_povrays_own(path); });
     return paths;
 }
-
-// What the user himself named may lie anywhere; what the scene names, only where he put the scene
-// or pointed to.
-class MayGo {
-  public:
-    explicit MayGo(const SceneRequest& request) {
-        folders_.push_back(real_path("."));
-        if (std::error_code error; fs::is_regular_file(request.scene, error))
-            folders_.push_back(real_path(request.scene).parent_path());
-        for (const fs::path& path : own_library_paths(request)) folders_.push_back(real_path(path));
-        for (const std::string& option : request.options)
-            for (const std::string& name : names_in_option(option))
-                named_.push_back(real_path(name));
-    }
-    bool operator()(const fs::path& file) const {
-        const fs::path real = real_path(file);
-        return std::ranges::find(named_, real) != named_.end() ||
-               std::ranges::any_of(folders_,
-                                   [&](const fs::path& folder) { return lies_in(real, folder); });
-    }
-
-  private:
-    std::vector<fs::path> folders_, named_;
-};
 
 void add(Packing& packing, const std::string& name, std::string text) {
     packing.pack.files.push_back({name, text.size(), sha1_of_text(text)});
@@ -75,10 +45,9 @@ void add_file(Packing& packing, const std::string& name, const fs::path& file,
 }  // namespace
 
 Packing pack_scene(const SceneRequest& request, const std::vector<std::string>& arguments,
-                   const SceneView& ours, const PackLimits& limits) {
+                   const SceneView& ours, const MayGo& may_go, const PackLimits& limits) {
     Packing packing;
     packing.absolute = scene_names(request).absolute_in_text;
-    const MayGo may_go(request);
     std::vector<fs::path> files;
     for (const auto& [named, sha1] : ours.files) {
         if (std::ranges::find(packing.absolute, fs::path(named)) != packing.absolute.end())
@@ -86,10 +55,10 @@ Packing pack_scene(const SceneRequest& request, const std::vector<std::string>& 
         if (!may_go(named))
             throw Failure(
                 Exit::file,
-                fmt::format("'{}', which the scene names, is not sent to other hosts: it lies "
-                            "neither in the current folder nor beside the scene nor in a library "
-                            "path (+L)",
-                            named));
+                fmt::format(
+                    "'{}', which the scene names, is not sent to other hosts: it lies in no "
+                    "folder of the scene's, of +L or of --allow-read",
+                    named));
         files.emplace_back(named);
     }
     const std::vector<fs::path> libraries = own_library_paths(request);

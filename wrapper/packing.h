@@ -6,6 +6,7 @@
 #include "scene_view.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,10 +27,12 @@ struct Packing {
     std::vector<std::filesystem::path> absolute;
 };
 
+// Whether a file of this host, links followed, may leave it.
+using MayGo = std::function<bool(const std::filesystem::path&)>;
+
 // `arguments` are POV-Ray's, `ours` what rank 0 sees. Throws Failure(Exit::file): a file that the
-// scene names and that lies, links followed, in none of the folders that it may be read from (the
-// current one, that of the scene, the library paths); more than the limits allow.
+// scene names and that may not go; more than the limits allow.
 Packing pack_scene(const SceneRequest& request, const std::vector<std::string>& arguments,
-                   const SceneView& ours, const PackLimits& limits = {});
+                   const SceneView& ours, const MayGo& may_go, const PackLimits& limits = {});
 
 }  // namespace mpipov

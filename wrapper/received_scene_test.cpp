@@ -80,6 +80,51 @@ TEST_F(ReceivedSceneTest, OtherBytesThanAnnouncedAreRefused) {
                 ThrowsMessage<std::runtime_error>(HasSubstr("'scene/a.pov' changed")));
 }
 
+TEST_F(ReceivedSceneTest, LessThanAnnouncedIsNeverComplete) {
+    const std::string all = "spherebox";
+    for (std::size_t size = 0; size < all.size(); ++size) {
+        ReceivedScene scene;
+        scene.begin(folder() += std::to_string(size), pack());
+        scene.take(bytes(all.substr(0, size)));
+        EXPECT_FALSE(scene.complete()) << size;
+        // Nor does another pack take its place.
+        EXPECT_THROW(scene.begin(folder() += std::to_string(size), pack()), Failure);
+    }
+}
+
+TEST_F(ReceivedSceneTest, AnotherSizeThanThatOfTheBytesIsRefused) {
+    for (const int more : {-1, 1}) {
+        ScenePack other = pack();
+        other.files[1].bytes = static_cast<std::uint64_t>(6 + more);
+        ReceivedScene scene;
+        scene.begin(folder() += std::to_string(more), other);
+        EXPECT_THROW(scene.take(bytes("spherebox")), std::runtime_error) << more;
+    }
+}
+
+TEST_F(ReceivedSceneTest, NamesThatTheFileSystemCannotHoldAreAFailure) {
+    ScenePack odd = pack();
+    odd.files[0].name = "scene/" + std::string(300, 'a');
+    EXPECT_THROW(scene_.begin(folder(), odd), Failure);
+}
+
+TEST_F(ReceivedSceneTest, NamesThatAreNoUtf8AreMade) {
+    ScenePack odd = pack();
+    odd.files[0].name = "scene/d\xe9r/caf\xe9";
+    scene_.begin(folder(), odd);
+    EXPECT_TRUE(fs::is_regular_file(folder() / "scene/d\xe9r/caf\xe9"));
+}
+
+// Where the file system knows no case, the second name is there already.
+TEST_F(ReceivedSceneTest, AFileThatIsThereIsNotWrittenOver) {
+    scene_.begin(folder(), pack());
+    fs::create_directory(folder() / "scene/lib");
+    std::ofstream(folder() / "scene/lib/b.inc") << "kept";
+    EXPECT_THAT([&] { scene_.take(bytes("spherebox")); },
+                ThrowsMessage<Failure>(HasSubstr("File exists")));
+    EXPECT_EQ(text_of(folder() / "scene/lib/b.inc"), "kept");
+}
+
 TEST_F(ReceivedSceneTest, MoreThanAnnouncedIsRefused) {
     EXPECT_THROW(scene_.take(bytes("x")), std::runtime_error);
     scene_.begin(folder(), pack());

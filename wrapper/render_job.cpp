@@ -12,6 +12,7 @@
 #include "image_library.h"
 #include "interrupt.h"
 #include "job_identity.h"
+#include "meet_ranks.h"
 #include "other_file.h"
 #include "output_place.h"
 #include "probe.h"
@@ -37,8 +38,6 @@
 namespace mpipov {
 namespace {
 
-// How long ranks may take to come up after rank 0 did.
-constexpr double hello_seconds = 60;
 // Seconds of tracing from which it pays to look at the parts of the picture first.
 constexpr double least_render_to_look_at = 20;
 
@@ -51,40 +50,6 @@ class RunClock {
   private:
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
-
-MetRanks meet_ranks(const JobSetup& setup, Transport& transport, const std::string& povray) {
-    const auto size = static_cast<std::size_t>(transport.size());
-    MetRanks met{std::vector<RankRecord>(size), std::vector<int>(size),
-                 std::vector<std::string>(size)};
-    met.ranks[0] = setup.rank0;
-    met.pools[0] = setup.pool0;
-    met.views[0] = point_of_view();
-    for (int missing = transport.size() - 1; missing > 0; --missing) {
-        const auto message = wait_for_message(transport, hello_seconds);
-        throw_if_interrupted();
-        if (!message)
-            throw Failure(Exit::interrupted, fmt::format("{} ranks did not come up within {:.0f} s",
-                                                         missing, hello_seconds));
-        const nlohmann::json& head = message->head;
-        const auto host = head.at("host").get<std::string>();
-        if (message->kind == MessageKind::refused)
-            throw Failure(static_cast<Exit>(head.at("code").get<int>()),
-                          fmt::format("host {}: {}", host, head.at("why").get<std::string>()));
-        if (head.at("povray") != povray)
-            throw Failure(Exit::scene,
-                          fmt::format("host {} has POV-Ray {} and rank 0 has {}: their pixels "
-                                      "could differ",
-                                      host, head.at("povray").get<std::string>(), povray));
-        const auto peer = static_cast<std::size_t>(message->peer);
-        constexpr int most_cores = 1 << 16;
-        met.ranks.at(peer) = {message->peer, host, int_from_json(head.at("slots"), 0, most_cores),
-                              0, 0};
-        met.pools.at(peer) = int_from_json(head.at("pool"), 0, most_cores);
-        met.views.at(peer) = head.at("view");
-    }
-    if (setup.options.dedicated_coordinator) met.ranks[0].slots = 0;
-    return met;
-}
 
 Plan checked_plan(const PlanRequest& request, const ProbeResult& probe) {
     try {
@@ -120,8 +85,14 @@ std::optional<Journal> begin_journal(const Options& options, const OutputPlace& 
 
 // So that every rank can render.
 Shipping bring_scene_to_all(const Options& options, const std::vector<std::string>& arguments,
-                            const Probe& probe, const MetRanks& met, Transport& transport) {
-    ShipRequest request{options.ship, scene_request(probe, arguments), arguments, {}};
+                            const Probe& probe, const MetRanks& met, const Confinement& confinement,
+                            Transport& transport) {
+    ShipRequest request{
+        options.ship,
+        scene_request(probe, arguments),
+        arguments,
+        [&](const std::filesystem::path& file) { return confinement.is_users(file); },
+        {}};
     // A radiosity cache of the user's, which the scene does not name.
     if (probe.result.own_cache)
         for (const auto& [key, value] : probe.settings)
@@ -184,7 +155,8 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     record.warnings = probe.warnings;
 
     const OutputPlace place(probe.result.image.output_file, options.record, options.work_dir);
-    const MetRanks met = meet_ranks(setup, transport, povray);
+    MetRanks met = meet_ranks(setup.rank0, setup.pool0, transport, povray);
+    if (options.dedicated_coordinator) met.ranks[0].slots = 0;
     if (!section_format(probe.result.image.type).empty()) stop_early();
     const nlohmann::json identity = job_identity(probe, arguments, povray);
     record.scene_sha1 = scene_sha1(identity);
@@ -213,7 +185,8 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     place.check();
 
     Canvas canvas = make_canvas(plan.record);
-    const Shipping shipping = bring_scene_to_all(options, arguments, probe, met, transport);
+    const Shipping shipping =
+        bring_scene_to_all(options, arguments, probe, met, worker.confinement(), transport);
     std::optional<Journal> journal = begin_journal(options, place, identity, plan);
     std::optional<Coordinator> coordinator;
     try {

@@ -141,6 +141,11 @@ std::string text_of(const fs::path& file) {
     return text.find('\0') == std::string::npos ? text : std::string();
 }
 
+bool is_ascii(std::string_view text) {
+    return std::all_of(text.begin(), text.end(),
+                       [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
+
 // Of no size or endless, and nothing that a picture is made of.
 bool is_the_kernels(const fs::path& canonical) {
     for (const char* folder : {"/proc/", "/sys/", "/dev/"})
@@ -204,6 +209,8 @@ class Search {
     }
 
     void take(const fs::path& file) {
+        // POV-Ray makes blanks of what is not ASCII, and finds no such file (docs/povray.md).
+        if (!is_ascii(file.native())) return;
         std::error_code error;
         if (!fs::is_regular_file(file, error)) return;
         const fs::path canonical = fs::canonical(file, error);

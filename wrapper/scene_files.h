@@ -6,8 +6,8 @@
 // scene or in a library path; where several do, all of them count, so that one that is added before
 // another is a change too. Not found are names that the scene computes (concat("map", str(...)),
 // a name out of a file that it reads), and what is named in a file of more than 64 MiB or with a
-// zero byte. POV-Ray's own folders (share/povray-3.7) do not
-// count: its version stands for them.
+// zero byte. Names that are not ASCII do not count, because POV-Ray finds no such file; nor do
+// POV-Ray's own folders (share/povray-3.7), for which its version stands.
 #pragma once
 
 #include <filesystem>

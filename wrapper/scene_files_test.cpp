@@ -83,6 +83,13 @@ class SceneFilesTest : public testing::Test {
     const ScratchFolder scratch_{"scene-files-test"};
 };
 
+// POV-Ray cannot open them; their names in JSON would be no text either.
+TEST_F(SceneFilesTest, NamesThatAreNotAsciiDoNotCount) {
+    write("a.pov", "#include \"caf\xe9.inc\"\n#include \"sch\xc3\xb6n.inc\"\n#include \"b.inc\"");
+    for (const char* file : {"caf\xe9.inc", "sch\xc3\xb6n.inc", "l\xe9/b.inc"}) write(file, "");
+    EXPECT_THAT(files({"a.pov", {}, {"l\xe9"}, {}}), ElementsAre("a.pov"));
+}
+
 TEST_F(SceneFilesTest, FollowsIncludes) {
     write("a.pov", "#include \"b.inc\" #include \"missing.inc\"");
     write("b.inc", "#declare T = texture { pigment { image_map { png \"c\" } } }\n");

@@ -14,7 +14,7 @@
 namespace mpipov {
 
 struct PackedFile {
-    std::string name;         // below the folder that is unpacked into, with '/' between folders
+    std::string name;  // any bytes; below the folder that is unpacked into, '/' between folders
     std::uint64_t bytes = 0;  // that will come
     std::string sha1;         // of them, 40 hexadecimal digits
 };
@@ -27,7 +27,7 @@ struct ScenePack {
 };
 
 struct PackLimits {
-    std::size_t names = 20000;  // files and folders
+    std::size_t names = 20000;  // files and folders, those too that lie between
     std::uint64_t bytes = std::uint64_t{16} << 30;
     std::size_t name_bytes = 1000;                      // of one name
     std::size_t all_name_bytes = std::size_t{4} << 20;  // of all, so that they fit a message

@@ -1,6 +1,7 @@
 #include "scene_view.h"
 
 #include "journal.h"
+#include "message_fields.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -82,29 +83,37 @@ std::string point_of_view() {
 }
 
 nlohmann::json to_json(const SceneRequest& request) {
-    std::vector<std::string> paths;
-    paths.reserve(request.library_paths.size());
-    for (const fs::path& path : request.library_paths) paths.push_back(path.string());
-    return {{"scene", request.scene},
-            {"options", request.options},
+    nlohmann::json paths = nlohmann::json::array();
+    for (const fs::path& path : request.library_paths) paths.push_back(text_to_json(path.string()));
+    return {{"scene", text_to_json(request.scene)},
+            {"options", texts_to_json(request.options)},
             {"library_paths", std::move(paths)},
-            {"output", request.output.string()}};
+            {"output", text_to_json(request.output.string())}};
 }
 
 SceneRequest scene_request_from_json(const nlohmann::json& json) {
-    SceneRequest request{json.at("scene"), json.at("options"), {}, {}};
-    for (const nlohmann::json& path : json.at("library_paths"))
-        request.library_paths.emplace_back(path.get<std::string>());
-    request.output = json.at("output").get<std::string>();
+    const MessageFields fields(json);
+    SceneRequest request{fields.text("scene"), fields.texts("options"), {}, fields.text("output")};
+    for (const std::string& path : fields.texts("library_paths"))
+        request.library_paths.emplace_back(path);
     return request;
 }
 
 nlohmann::json to_json(const SceneView& view) {
-    return {{"files", view.files}, {"ini", view.ini_sha1}};
+    nlohmann::json files = nlohmann::json::array();
+    for (const auto& [name, sha1] : view.files)
+        files.push_back({{"name", text_to_json(name)}, {"sha1", sha1}});
+    return {{"files", std::move(files)}, {"ini", view.ini_sha1}};
 }
 
 SceneView scene_view_from_json(const nlohmann::json& json) {
-    return {json.at("files").get<std::map<std::string, std::string>>(), json.at("ini")};
+    const MessageFields fields(json);
+    SceneView view{{}, fields.text("ini")};
+    for (const nlohmann::json& file : fields.array("files")) {
+        const MessageFields about(file);
+        view.files[about.text("name")] = about.text("sha1");
+    }
+    return view;
 }
 
 }  // namespace mpipov

@@ -3,6 +3,7 @@
 #include "event_loop.h"
 #include "failure.h"
 #include "interrupt.h"
+#include "message_fields.h"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -87,10 +88,10 @@ class Talk {
     Place& place_of(const Message& message) {
         for (Place& place : places_) {
             if (place.ranks.front() != message.peer) continue;
+            const MessageFields fields(message.head);
             if (message.kind == MessageKind::refused)
-                throw Failure(static_cast<Exit>(message.head.at("code").get<int>()),
-                              fmt::format("host {}: {}", place.host,
-                                          message.head.at("why").get<std::string>()));
+                throw Failure(fields.code("code"),
+                              fmt::format("host {}: {}", place.host, fields.said("why")));
             return place;
         }
         throw std::runtime_error("a rank spoke of the scene's files that was not asked");
@@ -155,7 +156,7 @@ Shipping ship_scene(const ShipRequest& request, Transport& transport) {
     nlohmann::json look = to_json(request.scene);
     look["absolute"] = nlohmann::json::array();
     for (const std::filesystem::path& file : scene_names(request.scene).absolute_in_text)
-        look["absolute"].push_back(file.string());
+        look["absolute"].push_back(text_to_json(file.string()));
     Talk(transport, places, request.patience_seconds).send_to_all(MessageKind::look, look);
     Talk(transport, places, request.patience_seconds)
         .hear_all(MessageKind::seen, [](Place& place, const nlohmann::json& head) {
@@ -169,7 +170,7 @@ Shipping ship_scene(const ShipRequest& request, Transport& transport) {
         throw Failure(Exit::file,
                       fmt::format("host {} {}: leave --ship off away, and it is sent",
                                   places.front().host, difference(ours, places.front().view)));
-    const Packing packing = pack_scene(request.scene, request.arguments, ours);
+    const Packing packing = pack_scene(request.scene, request.arguments, ours, request.may_go);
     for (const Place& place : places) require_absolute(packing, ours, place);
 
     Talk talk(transport, places, request.patience_seconds);
@@ -180,7 +181,7 @@ Shipping ship_scene(const ShipRequest& request, Transport& transport) {
     shipping.scene = {{}, packing.arguments, packing.pack.folder, packing.pack.ini};
     shipping.scene.copies.resize(request.ranks.size());
     talk.hear_all(MessageKind::unpacked, [&](Place& place, const nlohmann::json& head) {
-        const auto folder = head.at("folder").get<std::string>();
+        const std::string folder = MessageFields(head).text("folder");
         for (const int rank : place.ranks)
             shipping.scene.copies[static_cast<std::size_t>(rank)] = folder;
         shipping.hosts.push_back(place.host);

@@ -16,6 +16,7 @@ struct ShipRequest {
     Ship ship = Ship::automatic;
     SceneRequest scene;
     std::vector<std::string> arguments;  // POV-Ray's
+    MayGo may_go;                        // Confinement::is_users()
     // By rank; ranks with the same view (point_of_view()) share a copy, those with rank 0's need
     // none, and "" is like no other.
     struct Rank {

@@ -1,5 +1,6 @@
 #include "ship_scene.h"
 
+#include "confinement.h"
 #include "failure.h"
 #include "in_process_transport.h"
 #include "received_scene.h"
@@ -20,6 +21,7 @@ namespace mpipov {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -50,10 +52,15 @@ class ShipSceneTest : public testing::Test {
         request_.patience_seconds = 20;
     }
     void TearDown() override {
+        stop();
+        fs::current_path("/");
+    }
+    // The other ranks.
+    void stop() {
         for (int rank = 1; rank < ranks; ++rank)
             transports_.at(0).send({MessageKind::stop, rank, nlohmann::json::object(), {}});
         for (std::thread& thread : threads_) thread.join();
-        fs::current_path("/");
+        threads_.clear();
     }
 
     fs::path home() const { return scratch_.path() / "home"; }
@@ -64,12 +71,20 @@ class ShipSceneTest : public testing::Test {
     Shipping ship() {
         for (int rank = 1; rank < ranks; ++rank)
             threads_.emplace_back([this, rank] { serve(rank); });
+        Options options;
+        options.povray_arguments = request_.arguments;
+        options.confine = confine_;
+        options.allow_read = allow_read_;
+        const Confinement confinement(options, {}, std::next(folders_.begin(), 0)->path());
+        request_.may_go = [&](const fs::path& file) { return confinement.is_users(file); };
         return ship_scene(request_, transports_.at(0));
     }
 
     // Changes the answer of a rank before rank 0 gets it.
     std::function<void(int rank, SceneView&)> sees_ = [](int, SceneView&) {};
     ShipRequest request_;
+    Confining confine_ = Confining::automatic;
+    std::vector<fs::path> allow_read_;
 
   private:
     void serve(int rank) {
@@ -191,8 +206,8 @@ TEST_F(ShipSceneTest, AnAbsoluteNameThatLeadsToAnotherFileIsRefused) {
         if (rank == 2) view.files[name] = "other";
     };
     EXPECT_THAT([&] { ship(); },
-                ThrowsMessage<Failure>(testing::AllOf(HasSubstr("host host2 has another '" + name),
-                                                      HasSubstr("relative to the scene"))));
+                ThrowsMessage<Failure>(AllOf(HasSubstr("host host2 has another '" + name),
+                                             HasSubstr("relative to the scene"))));
 }
 
 TEST_F(ShipSceneTest, WhatLiesOutsideIsNotSent) {
@@ -220,6 +235,28 @@ TEST_F(ShipSceneTest, ALinkThatStaysInsideIsSentAsTheFileItLeadsTo) {
     EXPECT_EQ(text_of(copy / "scene/job/map.png"), text_of("real.png"));
 }
 
+// An INI file beside the scene is the scene's: it opens no folder for it to be read, nor to be
+// sent.
+TEST_F(ShipSceneTest, AnIniFileOfTheScenesOpensNoFolder) {
+    request_.ship = Ship::on;
+    fs::create_directories(home() / "keys");
+    write(home() / "keys/key.inc", "secret");
+    write("job.ini", "Library_Path=" + (home() / "keys").string() + "\n");
+    write("scene.pov", "#include \"key.inc\"");
+    request_.scene.options = {"scene.pov", "job.ini"};
+    request_.scene.library_paths = {home() / "keys"};
+    request_.arguments = {"scene.pov", "job.ini"};
+    for (const Confining confine : {Confining::automatic, Confining::off}) {
+        confine_ = confine;
+        EXPECT_THAT([&] { ship(); }, ThrowsMessage<Failure>(
+                                         AllOf(HasSubstr("key.inc', which the scene names, is not"),
+                                               HasSubstr("--allow-read"))));
+        stop();
+    }
+    allow_read_ = {home() / "keys"};  // the way out
+    EXPECT_EQ(text_of(ship().scene.copy_for(1) / "scene/keys/key.inc"), "secret");
+}
+
 TEST_F(ShipSceneTest, ADeviceIsNoFileOfAScene) {
     request_.ship = Ship::on;
     fs::remove("map.png");
@@ -233,6 +270,7 @@ TEST_F(ShipSceneTest, AnIniFileArrivesWithRelativeNames) {
     request_.scene.options = {"job.ini"};
     request_.scene.library_paths = {home() / "lib"};
     request_.arguments = {"job.ini"};
+    allow_read_ = {home() / "lib"};
     const fs::path copy = ship().scene.copy_for(1);
     EXPECT_EQ(text_of(copy / "scene/job/job.ini"), "Library_Path=../lib\nWidth=40\n");
     EXPECT_EQ(text_of(copy / "scene/lib/a.inc"), text_of("../lib/a.inc"));

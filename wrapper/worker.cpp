@@ -1,5 +1,6 @@
 #include "worker.h"
 
+#include "message_fields.h"
 #include "povray_text.h"
 
 #include <fmt/format.h>
@@ -64,35 +65,14 @@ void Worker::handle(const Message& message) {
     }
 }
 
-void Worker::take_job(const nlohmann::json& head) {
-    constexpr int most_pixels = 1 << 30, most_threads = 1 << 16;
-    image_ = {int_from_json(head.at("width"), 1, most_pixels),
-              int_from_json(head.at("height"), 1, most_pixels)};
-    int_from_json(head.at("threads"), 1, most_threads);
-    int_from_json(head.at("block"), 0, most_pixels);
-    cache_.begin(scratch_ / "radiosity.cache", head.at("cache_bytes"));
-    ++jobs_;
-    gathers_ = head.at("gathers");
-    job_ = {head.at("povray"),  head.at("user_arguments"), head.at("format_arguments"),
-            head.at("threads"), head.at("block"),          cache_.file()};
-    const std::filesystem::path copy = head.at("copy").get<std::string>();
-    launch_confinement_ =
-        copy.empty()
-            ? confinement_
-            : confinement_.in_copy({copy, copy / head.at("folder").get<std::string>(),
-                                    copy / head.at("ini").get<std::string>(), job_.user_arguments});
-    timeout_seconds_.reset();
-    if (!head.at("timeout_seconds").is_null())
-        timeout_seconds_ = head.at("timeout_seconds").get<double>();
-}
-
 void Worker::start(const Message& message) {
     if (!cache_.complete())
         throw std::runtime_error("a section was assigned before its radiosity cache was sent");
-    Section section{message.head.at("section"), rect_from_json(message.head.at("keep")),
-                    rect_from_json(message.head.at("render"))};
-    const int attempt = message.head.at("attempt");
-    if (section.render.empty() ||
+    const MessageFields fields(message.head);
+    const Section section{fields.number("section", 0, most_sections), fields.rect("keep"),
+                          fields.rect("render")};
+    const int attempt = fields.number("attempt", 0, most_attempts);
+    if (section.render.empty() || intersect(section.keep, section.render) != section.keep ||
         intersect(section.render, {0, 0, image_.width, image_.height}) != section.render)
         throw std::runtime_error("a section was assigned that does not lie in the image");
     try {
@@ -199,9 +179,11 @@ Worker::State Worker::end_broken(Launch& launch) {
 
 // Nothing where it has ended meanwhile: the coordinator has heard of that.
 void Worker::cancel(const Message& message) {
+    const MessageFields fields(message.head);
+    const int id = fields.number("section", 0, most_sections);
+    const int attempt = fields.number("attempt", 0, most_attempts);
     for (Launch& launch : launches_)
-        if (launch.section.id == message.head.at("section").get<int>() &&
-            launch.attempt == message.head.at("attempt").get<int>()) {
+        if (launch.section.id == id && launch.attempt == attempt) {
             launch.cancelled = true;
             launch.child.kill_now();
         }
@@ -236,7 +218,7 @@ Worker::State Worker::send_more(Launch& launch) {
     if (launch.samples) {
         auto piece = next_piece(*launch.samples, launch.samples_sent);
         if (!piece) return send_done(launch);
-        transport_.send({MessageKind::cache, coordinator, std::move(head), *std::move(piece)});
+        transport_.send({MessageKind::samples, coordinator, std::move(head), *std::move(piece)});
         return State::busy;
     }
     std::optional<Band> band = launch.reader->next();
@@ -257,7 +239,7 @@ Worker::State Worker::send_done(const Launch& launch) {
 
 void Worker::send_progress(Launch& launch) {
     // Only in steps worth a message.
-    const double fraction = parse_progress(launch.child.output()).value_or(0);
+    const double fraction = std::min(parse_progress(launch.child.output()).value_or(0), 1.0);
     if (fraction < launch.last_fraction + 0.02) return;
     launch.last_fraction = fraction;
     nlohmann::json head = head_of(launch);

@@ -1,4 +1,5 @@
 // The worker's part in bringing a scene to its host: says what it sees of it, and takes a copy.
+#include "message_fields.h"
 #include "scene_view.h"
 #include "worker.h"
 
@@ -12,8 +13,8 @@ constexpr int coordinator = 0;
 void Worker::take_scene(const Message& message) {
     if (message.kind == MessageKind::look) {
         std::vector<std::filesystem::path> absolute;
-        for (const nlohmann::json& name : message.head.at("absolute"))
-            absolute.emplace_back(name.get<std::string>());
+        for (const std::string& name : MessageFields(message.head).texts("absolute"))
+            absolute.emplace_back(name);
         const SceneView seen = view_scene(scene_request_from_json(message.head), absolute);
         transport_.send({MessageKind::seen, coordinator, to_json(seen), {}});
         return;
@@ -23,8 +24,10 @@ void Worker::take_scene(const Message& message) {
     else
         scene_.take(message.body);
     if (scene_.complete())
-        transport_.send(
-            {MessageKind::unpacked, coordinator, {{"folder", scene_.folder().string()}}, {}});
+        transport_.send({MessageKind::unpacked,
+                         coordinator,
+                         {{"folder", text_to_json(scene_.folder().string())}},
+                         {}});
 }
 
 }  // namespace mpipov

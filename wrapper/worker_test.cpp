@@ -356,7 +356,7 @@ TEST_F(WorkerTest, GathersSamples) {
     const std::vector<Message> heard = listen();
     EXPECT_EQ(heard.back().kind, MessageKind::done);
     EXPECT_THAT(of_kind(heard, MessageKind::band), testing::IsEmpty());
-    EXPECT_EQ(text_of(of_kind(heard, MessageKind::cache)),
+    EXPECT_EQ(text_of(of_kind(heard, MessageKind::samples)),
               common_sample + "C2\t16\t0\t48\t24\t0\t0\t0\t0\t0\t0\n");
     EXPECT_EQ(heard.back().head.at("section"), 4);
     EXPECT_EQ(heard.back().head.at("attempt"), 2);
@@ -368,12 +368,12 @@ TEST_F(WorkerTest, SendsOnlyTheSamplesThatWereNotThere) {
     for (int round = 0; round < 2; ++round) {
         send_gathering_job(known);
         assign(0, {0, 0, 32, 48});
-        EXPECT_EQ(text_of(of_kind(listen(), MessageKind::cache)),
+        EXPECT_EQ(text_of(of_kind(listen(), MessageKind::samples)),
                   common_sample + "C2\t0\t0\t32\t48\t3\t0\t0\t0\t0\t0\n");
     }
     send_gathering_job("");
     assign(0, {0, 0, 32, 48});
-    EXPECT_THAT(text_of(of_kind(listen(), MessageKind::cache)), HasSubstr("\t48\t0\t0"));
+    EXPECT_THAT(text_of(of_kind(listen(), MessageKind::samples)), HasSubstr("\t48\t0\t0"));
     std::filesystem::remove(scratch_.path() / "radiosity.cache");
 }
 
@@ -406,7 +406,7 @@ TEST_F(WorkerTest, NothingLitIsNoSamples) {
     assign(0, {0, 0, 32, 48});
     const std::vector<Message> heard = listen();
     EXPECT_EQ(heard.back().kind, MessageKind::done);
-    EXPECT_THAT(of_kind(heard, MessageKind::cache), testing::IsEmpty());
+    EXPECT_THAT(of_kind(heard, MessageKind::samples), testing::IsEmpty());
 }
 
 // A full disk: POV-Ray saves what fits, and exits with 0.
@@ -419,7 +419,7 @@ TEST_F(WorkerTest, FewerSamplesThanPovrayTookAreNotTaken) {
         EXPECT_EQ(heard.back().kind, MessageKind::failed) << fault;
         EXPECT_THAT(heard.back().head.at("why").get<std::string>(), HasSubstr("space left"));
         EXPECT_EQ(heard.back().head.at("code"), static_cast<int>(Exit::file));
-        EXPECT_THAT(of_kind(heard, MessageKind::cache), testing::IsEmpty());
+        EXPECT_THAT(of_kind(heard, MessageKind::samples), testing::IsEmpty());
     }
 }
 
