@@ -81,11 +81,15 @@ class Confinement {
     std::uint64_t memory_limit(int threads) const;
     std::optional<std::uint64_t> file_limit(const LaunchNeeds& needs) const;
     std::optional<std::uint64_t> folder_limit(const LaunchNeeds& needs) const;
-    bool may_read(const std::filesystem::path& file) const;
+    std::string way_to_read(const std::string& name) const;
+    std::string way_to_write(const std::string& name) const;
 
     bool on_ = false, off_ = false;  // limits at all; files left alone because the user says so
-    FileAccess program_;             // what any scene may
+    std::string program_name_;       // --povray
+    std::filesystem::path program_file_;  // found for it here; empty: none
+    FileAccess program_;                  // what any scene may
     std::optional<FileAccess> files_;
+    std::filesystem::path home_;        // the user's
     std::filesystem::path run_folder_;  // of a copy; empty: ours
     std::vector<std::pair<std::string, std::string>> environment_;
     std::vector<std::filesystem::path> searched_;  // for names that are relative

@@ -3,6 +3,7 @@
 #include "inside.h"
 #include "letter_case.h"
 #include "scene_files.h"
+#include "user_settings.h"
 
 #include <sys/stat.h>
 
@@ -57,20 +58,12 @@ std::vector<std::string> values_in(std::string_view option, const Spelling& spel
     return values;
 }
 
-// What scenes read: themselves, includes, images, fonts, densities, meshes of points.
-bool is_a_scenes_file(const fs::path& file) {
-    constexpr std::array kinds{".pov", ".inc", ".ini", ".mcr", ".tga",  ".gif", ".iff",
-                               ".pgm", ".ppm", ".png", ".jpg", ".jpeg", ".tif", ".tiff",
-                               ".bmp", ".exr", ".hdr", ".ttf", ".otf",  ".df3"};
-    return std::find(kinds.begin(), kinds.end(), lower(file.extension().string())) != kinds.end();
-}
-
 class Folders {
   public:
     explicit Folders(const FolderRequest& request) : request_(request) {
         for (const std::string& argument : request.arguments) {
             for (const std::string& name : names_in_option(argument)) add_named(name);
-            for (const std::string& name : caches_in(argument)) add_named(name);
+            for (const std::string& name : caches_in(argument)) add_file(from_run(name));
             for (const std::string& folder : library_paths_in(argument)) add(from_run(folder));
         }
         if (!is_for_more_than_a_scene(request.run_folder, request.home)) add(request.run_folder);
@@ -91,13 +84,19 @@ class Folders {
         if (fs::is_directory(folder, error)) paths_.insert(folder);
     }
 
+    bool add_file(const fs::path& file) {
+        std::error_code error;
+        if (!fs::is_regular_file(file, error)) return false;
+        paths_.insert(file);
+        return true;
+    }
+
     void add_named(const std::string& name) {
         std::error_code error;
         fs::path file = from_run(name);
         // A scene may be named without its extension.
         if (!fs::is_regular_file(file, error)) file += ".pov";
-        if (!fs::is_regular_file(file, error)) return;
-        paths_.insert(file);
+        if (!add_file(file)) return;
         if (!is_for_more_than_a_scene(file.parent_path(), request_.home)) {
             add(file.parent_path());
             return;
@@ -141,6 +140,27 @@ bool is_for_more_than_a_scene(const fs::path& folder, const fs::path& home) {
     if (real == real.root_path()) return true;
     if (home.empty()) return false;
     return lies_in(fs::weakly_canonical(home, error), real);
+}
+
+bool is_a_scenes_file(const fs::path& file) {
+    constexpr std::array kinds{".pov", ".inc", ".ini", ".mcr", ".tga",  ".gif", ".iff",
+                               ".pgm", ".ppm", ".png", ".jpg", ".jpeg", ".tif", ".tiff",
+                               ".bmp", ".exr", ".hdr", ".ttf", ".otf",  ".df3"};
+    return std::find(kinds.begin(), kinds.end(), lower(file.extension().string())) != kinds.end();
+}
+
+FolderRequest request_of_user(std::vector<std::string> arguments) {
+    const fs::path home = home_of_user();
+    std::error_code error;
+    return {std::move(arguments), fs::current_path(error), home, settings_of_user(home)};
+}
+
+bool may_be_read(const fs::path& file, const std::vector<fs::path>& readable) {
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(file, error);
+    return std::ranges::any_of(readable, [&](const fs::path& one) {
+        return lies_in(real, fs::weakly_canonical(one, error));
+    });
 }
 
 std::vector<fs::path> scene_folders(const FolderRequest& request) {
