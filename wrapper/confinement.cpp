@@ -208,7 +208,7 @@ ChildRequest Confinement::request(LaunchNeeds needs) const {
     request.files->write.push_back(needs.folder);
     if (writes_.any)
         request.working_directory =
-            make_writable_view(needs.folder / "view", searched_.front(), writes_.names);
+            make_writable_view(needs.folder / "view", searched_.front(), writes_, files_->read);
     request.files->read.insert(request.files->read.end(), needs.reads.begin(), needs.reads.end());
     return request;
 }

@@ -44,6 +44,7 @@ struct SceneCopy {
     std::filesystem::path run_folder;    // where POV-Ray runs
     std::filesystem::path settings;      // its povray.ini
     std::vector<std::string> arguments;  // POV-Ray's
+    bool operator==(const SceneCopy&) const = default;
 };
 
 class Confinement {

@@ -13,6 +13,7 @@
 #include "interrupt.h"
 #include "job_identity.h"
 #include "other_file.h"
+#include "output_bounds.h"
 #include "output_place.h"
 #include "probe.h"
 #include "progress.h"
@@ -184,6 +185,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     record.warnings = probe.warnings;
 
     const OutputPlace place(probe.result.image.output_file, options.record, options.work_dir);
+    require_within_bounds(place, options, request_of_user(options.povray_arguments));
     const MetRanks met = meet_ranks(setup, transport, povray);
     if (!section_format(probe.result.image.type).empty()) stop_early();
     const nlohmann::json identity = job_identity(probe, arguments, povray);

@@ -33,6 +33,7 @@ struct Spelling {
 };
 constexpr Spelling library_path{"l", "library_path"};
 constexpr Spelling cache_file{"rf", "radiosity_file_name"};
+constexpr Spelling output_file{"o", "output_file_name"};
 
 std::string_view value_in_word(std::string_view word, const Spelling& spelling) {
     word = unquoted(word);
@@ -55,6 +56,15 @@ std::vector<std::string> values_in(std::string_view option, const Spelling& spel
             values.emplace_back(value);
     };
     for (const std::string_view words : readings_of(option)) add(words);
+    return values;
+}
+
+std::vector<std::string> values_of(const fs::path& ini, const Spelling& spelling) {
+    std::vector<std::string> values;
+    std::ifstream in(ini);
+    for (std::string line; std::getline(in, line);)
+        for (std::string& value : values_in(line.substr(0, line.find(';')), spelling))
+            values.push_back(std::move(value));
     return values;
 }
 
@@ -120,12 +130,15 @@ std::vector<std::string> library_paths_in(std::string_view option) {
 }
 
 std::vector<std::string> library_paths_of(const fs::path& ini) {
-    std::vector<std::string> paths;
-    std::ifstream in(ini);
-    for (std::string line; std::getline(in, line);)
-        for (std::string& path : library_paths_in(line.substr(0, line.find(';'))))
-            paths.push_back(std::move(path));
-    return paths;
+    return values_of(ini, library_path);
+}
+
+std::vector<std::string> outputs_in(std::string_view option) {
+    return values_in(option, output_file);
+}
+
+std::vector<std::string> outputs_of(const fs::path& ini) {
+    return values_of(ini, output_file);
 }
 
 std::vector<std::string> caches_in(std::string_view option) {

@@ -46,4 +46,8 @@ std::vector<std::string> library_paths_of(const std::filesystem::path& ini);
 // The radiosity cache that it names: +RFfile, Radiosity_File_Name=file.
 std::vector<std::string> caches_in(std::string_view option);
 
+// Where the image is to go: +Ofile, Output_File_Name=file; of an option, and of an INI file.
+std::vector<std::string> outputs_in(std::string_view option);
+std::vector<std::string> outputs_of(const std::filesystem::path& ini);
+
 }  // namespace mpipov

@@ -75,12 +75,7 @@ void Worker::take_job(const nlohmann::json& head) {
     gathers_ = head.at("gathers");
     job_ = {head.at("povray"),  head.at("user_arguments"), head.at("format_arguments"),
             head.at("threads"), head.at("block"),          cache_.file()};
-    const std::filesystem::path copy = head.at("copy").get<std::string>();
-    launch_confinement_ =
-        copy.empty()
-            ? confinement_
-            : confinement_.in_copy({copy, copy / head.at("folder").get<std::string>(),
-                                    copy / head.at("ini").get<std::string>(), job_.user_arguments});
+    confine_launches(head);
     timeout_seconds_.reset();
     if (!head.at("timeout_seconds").is_null())
         timeout_seconds_ = head.at("timeout_seconds").get<double>();

@@ -27,4 +27,19 @@ void Worker::take_scene(const Message& message) {
             {MessageKind::unpacked, coordinator, {{"folder", scene_.folder().string()}}, {}});
 }
 
+// A copy stays as it is for all jobs of a run: its text is looked through once.
+void Worker::confine_launches(const nlohmann::json& head) {
+    const std::filesystem::path copy = head.at("copy").get<std::string>();
+    if (copy.empty()) {
+        launch_confinement_ = confinement_;
+        copy_.reset();
+        return;
+    }
+    SceneCopy now{copy, copy / head.at("folder").get<std::string>(),
+                  copy / head.at("ini").get<std::string>(), job_.user_arguments};
+    if (copy_ == now) return;
+    launch_confinement_ = confinement_.in_copy(now);
+    copy_ = std::move(now);
+}
+
 }  // namespace mpipov
