@@ -64,9 +64,6 @@ def cases():
         "script_in_home": refused_read("{home}/passwords.txt", more=["--povray", "{home}/render"],
                                        files={"passwords.txt": f'"{KEY}"\n'},
                                        programs={"render": SCRIPT}),
-        "key_beside_a_script": refused_read("{home}/bin/id", more=["--povray", "{home}/bin/render"],
-                                            files={"bin/id": f'"{KEY}"\n'},
-                                            programs={"bin/render": SCRIPT}),
         "program_in_home": refused_read("{home}/lib/id", more=["--povray", "{home}/bin/povray"],
                                         files={"lib/id": f'"{KEY}"\n'}, programs={"bin/povray": ""}),
         "installed_in_home": Case(
@@ -76,8 +73,6 @@ def cases():
         # What the user named, and no more for that.
         "beside_a_cache": refused_read("{home}/cache/id", files={"cache/id": f'"{KEY}"\n', "cache/a": ""},
                                        arguments=["scene.pov", "+RF{home}/cache/a"]),
-        "cache": Case('#if (!file_exists("{home}/cache/a")) #error "not there" #end\n' + PICTURE,
-                      ["scene.pov", "+RF{home}/cache/a"], code=0, files={"cache/a": ""}),
         "linked_scene": Case("", ["linked.pov"], code=0, links={"work/linked.pov": "shared/real.pov"},
                              files={"shared/real.pov": HEAD + PICTURE}),
         "beside_a_linked_scene": Case("", ["linked.pov"], says=READ,
@@ -89,8 +84,6 @@ def cases():
             + SAY.format("passwords.txt") + PICTURE, "passwords.txt": f'"{KEY}"\n'}),
         # What is proposed.
         "proposed": refused('#include "../shared/a.inc"\n', PROPOSED, files={"shared/a.inc": ""}),
-        "hidden_is_not_proposed": refused('#include "{home}/.ssh/a.inc"\n', READ_ALONE,
-                                          files={".ssh/a.inc": ""}),
         "home_is_not_proposed": refused('#include "{home}/a.inc"\n', READ_ALONE, files={"a.inc": ""}),
         "error_looks_like_povrays": refused(f'#error "{NOT_FOUND}"\n', r"\A(?![\s\S]*--allow-read)",
                                             files={"shared/a.inc": ""}),
@@ -98,7 +91,6 @@ def cases():
                                             r"\A(?![\s\S]*--allow-read)", files={"shared/a.inc": ""}),
         # Other ways to the same.
         "key_by_proc_root": refused_read("/proc/self/root{home}/.ssh/id"),
-        "key_by_proc_cwd": refused("#fopen F \"/proc/self/cwd/../.ssh/id\" read\n", "Cannot find file"),
         "environment_of_others": refused_read("/proc/1/environ"),
         "endless_include": Case('#include "/dev/zero"\n' + PICTURE, code=None,
                                 more=["--memory-limit", "300M", "--timeout", "10"]),

@@ -246,7 +246,7 @@ std::string Confinement::way_to_read(const std::string& name) const {
 std::string Confinement::way_to_write(const std::string& name) const {
     std::error_code ignored;
     const fs::path file = (searched_.front() / name).lexically_normal();
-    const fs::path real = fs::weakly_canonical(file.parent_path(), ignored);
+    const fs::path real = fs::weakly_canonical(file, ignored).parent_path();
     if (may_be_read(real, files_->write)) return {};
     const std::string refused =
         fmt::format(" ('{}' may not be written by a scene: ", file.string());
