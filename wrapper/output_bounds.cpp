@@ -38,17 +38,22 @@ class Bounds {
         for (const fs::path& path : options.allow_write) allowed_.push_back(real(path));
     }
 
-    // A device or a stream.
-    bool names(const fs::path& file) const {
+    // With or without the extension that POV-Ray puts behind it.
+    bool name(const fs::path& file) const {
         std::error_code error;
-        const fs::path named = fs::absolute(file, error).lexically_normal();
-        return std::ranges::find(devices_, named) != devices_.end();
+        const fs::path full = fs::absolute(file, error).lexically_normal();
+        return std::ranges::find(named_, full) != named_.end() ||
+               std::ranges::find(named_, fs::path(full).replace_extension()) != named_.end();
+    }
+
+    bool allow(const fs::path& target) const {
+        return std::ranges::any_of(allowed_,
+                                   [&](const fs::path& folder) { return lies_in(target, folder); });
     }
 
     bool hold(const fs::path& target) const {
         const auto in = [&](const fs::path& folder) { return lies_in(target, folder); };
-        return std::ranges::any_of(allowed_, in) ||
-               std::ranges::any_of(folders_, [&](const fs::path& folder) {
+        return allow(target) || std::ranges::any_of(folders_, [&](const fs::path& folder) {
                    return is_for_more_than_a_scene(folder, home_)
                               ? target.parent_path() == folder &&
                                     !target.filename().string().starts_with('.')
@@ -61,16 +66,20 @@ class Bounds {
     void add_output(const fs::path& name) {
         std::error_code error;
         const fs::path file = fs::absolute(name, error).lexically_normal();
-        // Not all of /dev for one of it, nor what it links to: /dev/fd/5 leads to what has no name.
-        if (lies_in(file, "/dev"))
-            devices_.push_back(file);
-        else
-            add(fs::is_directory(file, error) ? file : file.parent_path());
+        named_.push_back(file);
+        // Not all of /dev for one of it.
+        if (!lies_in(file, "/dev")) add(fs::is_directory(file, error) ? file : file.parent_path());
     }
 
     fs::path home_;
-    std::vector<fs::path> folders_, allowed_, devices_;
+    std::vector<fs::path> folders_, allowed_, named_;
 };
+
+[[noreturn]] void refuse(const fs::path& target, const char* why) {
+    throw Failure(Exit::usage, fmt::format("'{}' is not written: {} with +O, or allow it with "
+                                           "--allow-write",
+                                           target.string(), why));
+}
 
 }  // namespace
 
@@ -78,14 +87,24 @@ void require_within_bounds(const OutputPlace& place, const Options& options,
                            const FolderRequest& user) {
     if (options.confine == Confining::off) return;
     const Bounds bounds(options, user);
-    for (const fs::path& file : {place.image(), place.record(), place.work_folder()}) {
-        if (bounds.names(file)) continue;
+    std::vector<fs::path> targets{place.image(), place.record(), place.work_folder()};
+    // A scene may bring a work folder to go on from.
+    std::error_code error;
+    for (fs::directory_iterator it(place.work_folder(), error);
+         !error && it != fs::directory_iterator(); it.increment(error))
+        if (it->is_symlink()) targets.push_back(it->path());
+    for (const fs::path& file : targets) {
+        if (is_written_into(file)) {
+            // It is not opened for a look where it leads: /dev/fd/5 is a link to what has no name.
+            std::error_code ignored;
+            const bool device = lies_in(fs::absolute(file, ignored).lexically_normal(), "/dev");
+            if (bounds.name(file) && (device || !fs::is_symlink(file))) continue;
+            if (bounds.allow(real(file))) continue;
+            refuse(file, "it is a pipe or a device that the command line does not name. Name it");
+        }
         const fs::path target = real(end_of_links(file));
         if (!bounds.hold(target))
-            throw Failure(Exit::usage,
-                          fmt::format("'{}' is not written: it lies in no folder that the command "
-                                      "line names. Name it with +O, or allow it with --allow-write",
-                                      target.string()));
+            refuse(target, "it lies in no folder that the command line names. Name it");
     }
 }
 

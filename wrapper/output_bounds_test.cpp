@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
@@ -86,10 +87,29 @@ TEST_F(OutputBoundsTest, LinksLeadNowhereElse) {
     EXPECT_THAT(refused("d.png"), HasSubstr(".ssh"));
 }
 
+TEST_F(OutputBoundsTest, NoWorkFolderOfTheScenesLeadsElsewhere) {
+    fs::create_directory(at("home/work/a.png.mpipov"));
+    std::ofstream(at("home/work/a.png.mpipov/journal.json")) << "{}";
+    EXPECT_EQ(refused("a.png"), "");
+    fs::create_symlink("../../.ssh/id", at("home/work/a.png.mpipov/sections.jsonl"));
+    EXPECT_THAT(refused("a.png"), HasSubstr(".ssh/id"));
+}
+
+TEST_F(OutputBoundsTest, PipesAreForTheUserToName) {
+    ASSERT_EQ(::mkfifo(at("home/work/run.json").c_str(), 0600), 0);
+    EXPECT_THAT(refused("a.png"), HasSubstr("run.json"));
+    options_.record = "run.json";
+    EXPECT_EQ(refused("a.png"), "");
+    ASSERT_EQ(::mkfifo(at("home/work/pipe.png").c_str(), 0600), 0);
+    EXPECT_THAT(refused("pipe.png"), HasSubstr("pipe.png"));
+    options_.povray_arguments = {"scene.pov", "+Opipe"};
+    EXPECT_EQ(refused("pipe.png"), "");
+}
+
 TEST_F(OutputBoundsTest, DevicesAreForTheUserToName) {
     options_.record = "/dev/null";
     fs::create_symlink("/dev/null", at("home/work/a.png"));
-    EXPECT_THAT(refused("a.png"), HasSubstr("/dev/null"));
+    EXPECT_THAT(refused("a.png"), HasSubstr("a.png"));
     EXPECT_EQ(refused("b.png"), "");
     options_.record.clear();
     EXPECT_THAT(refused("/dev/null"), HasSubstr("/dev/null"));
