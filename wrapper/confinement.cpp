@@ -213,6 +213,10 @@ ChildRequest Confinement::request(LaunchNeeds needs) const {
     return request;
 }
 
+bool Confinement::may_read(const fs::path& path) const {
+    return !files_ || may_be_read(path, files_->read) || may_be_read(path, files_->write);
+}
+
 std::string Confinement::way_out(std::string_view error) const {
     if (!on_) return {};
     if (files_ && error.find("error while loading shared libraries") != std::string_view::npos)
@@ -229,9 +233,7 @@ std::string Confinement::way_to_read(const std::string& name) const {
     for (const fs::path& folder : searched_) {
         const fs::path file = (folder / name).lexically_normal();
         std::error_code ignored;
-        if (!fs::exists(file, ignored) || may_be_read(file, files_->read) ||
-            may_be_read(file, files_->write))
-            continue;
+        if (!fs::exists(file, ignored) || may_read(file)) continue;
         const fs::path real = fs::weakly_canonical(file, ignored);
         const std::string refused =
             fmt::format(" ('{}' may not be read by a scene: ", file.string());

@@ -70,6 +70,10 @@ class Confinement {
     // Whether files are out of its reach: not where the kernel cannot, nor with --confine off.
     bool restricts_files() const { return files_.has_value(); }
 
+    // Whether a scene may read a file or folder, links followed: what else it names is not its own,
+    // and is not for other hosts either.
+    bool may_read(const std::filesystem::path& path) const;
+
     // What the user should know before he waits for the image; empty: nothing.
     std::string note() const;
 

@@ -16,9 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Of what cannot be looked at (a name that is too long), the path as it stands: it cannot be
+// written either, and says so itself.
 fs::path real(const fs::path& path) {
     std::error_code error;
-    return fs::weakly_canonical(fs::absolute(path, error), error);
+    const fs::path full = fs::absolute(path, error);
+    const fs::path found = fs::weakly_canonical(full, error);
+    return error ? full.lexically_normal() : found;
 }
 
 class Bounds {

@@ -48,6 +48,8 @@ class OutputBoundsTest : public testing::Test {
 TEST_F(OutputBoundsTest, AreTheFolderOfTheRunAndWhatTheUserNames) {
     EXPECT_EQ(refused("scene.png"), "");
     EXPECT_EQ(refused("out/scene.png"), "");
+    EXPECT_EQ(refused(std::string(300, 'n') + ".png"), "")
+        << "whoever writes it says what is wrong";
     EXPECT_EQ(refused(at("home/work/scene.png")), "");
     const fs::path far = at("home/pictures/scene.png");
     EXPECT_THAT(refused(far), AllOf(HasSubstr(far.string()), HasSubstr("--allow-write")));

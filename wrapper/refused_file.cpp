@@ -40,7 +40,13 @@ std::optional<RefusedFile> refused_file(std::string_view output) {
         return line.find("Error: ") != std::string::npos;
     };
     const auto last = std::find_if(lines.rbegin(), lines.rend(), is_error);
-    if (last == lines.rend()) return {};
+    if (last == lines.rend()) {
+        // A text stream (+GA), before anything of the scene is read.
+        for (const std::string& line : lines)
+            if (auto name = between(line, "Cannot open file '", "' for output."))
+                return RefusedFile{std::move(*name), true};
+        return {};
+    }
     for (const char* how : {" (write).", " (append)."})
         if (auto name = between(*last, "Parse Error: Cannot open user file ", how))
             return RefusedFile{std::move(*name), true};

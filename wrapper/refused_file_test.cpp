@@ -40,6 +40,7 @@ TEST(RefusedFile, IsTheOneThatPovrayNamesLast) {
     EXPECT_EQ(name_in("File 'c.pov' line 2: Parse Error: Cannot open user file x (append).\n"),
               "write x");
     EXPECT_EQ(name_in("File 'c.pov' line 2: Parse Error: Expected 'operand'\n"), "");
+    EXPECT_EQ(name_in("Cannot open file 'all.txt' for output.\n"), "write all.txt");
     EXPECT_EQ(name_in(""), "");
 }
 

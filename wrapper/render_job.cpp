@@ -119,14 +119,18 @@ std::optional<Journal> begin_journal(const Options& options, const OutputPlace& 
     return Journal::create(place.work_folder(), identity, to_json(plan.record));
 }
 
-// So that every rank can render.
+// So that every rank can render. What the settings name and a scene may not read (an INI file
+// beside it is the scene's) is not sent: it would be the scene's there.
 Shipping bring_scene_to_all(const Options& options, const std::vector<std::string>& arguments,
-                            const Probe& probe, const MetRanks& met, Transport& transport) {
+                            const Probe& probe, const MetRanks& met, const Confinement& confinement,
+                            Transport& transport) {
     ShipRequest request{options.ship, scene_request(probe, arguments), arguments, {}};
+    std::erase_if(request.scene.library_paths,
+                  [&](const auto& path) { return !confinement.may_read(path); });
     // A radiosity cache of the user's, which the scene does not name.
     if (probe.result.own_cache)
         for (const auto& [key, value] : probe.settings)
-            if (key == "Radiosity_File_Name")
+            if (key == "Radiosity_File_Name" && confinement.may_read(value))
                 request.scene.options.push_back(fmt::format("+I\"{}\"", value));
     for (std::size_t rank = 0; rank < met.ranks.size(); ++rank)
         request.ranks.push_back({met.ranks[rank].host, met.views[rank]});
@@ -215,7 +219,8 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     place.check();
 
     Canvas canvas = make_canvas(plan.record);
-    const Shipping shipping = bring_scene_to_all(options, arguments, probe, met, transport);
+    const Shipping shipping =
+        bring_scene_to_all(options, arguments, probe, met, worker.confinement(), transport);
     std::optional<Journal> journal = begin_journal(options, place, identity, plan);
     std::optional<Coordinator> coordinator;
     try {
