@@ -22,8 +22,7 @@ class Case:
     says: str = ""                               # a pattern that standard error must match
     files: dict = field(default_factory=dict)    # by name within the home folder
     links: dict = field(default_factory=dict)    # to what, within the home folder
-    image: str = "image.png"                     # seen from the folder of the run
-    made: list = field(default_factory=list)     # files that the run makes, besides image and record
+    made: list = field(default_factory=list)     # files that the run makes, besides the image
     same_as_serial: bool = False
     may_tell: bool = False                       # the key was allowed
     seconds: float = RUN_SECONDS
@@ -34,8 +33,6 @@ class Case:
 
 
 READ = "may not be read by a scene"
-# The same, and the message has no folder that could be copied from it.
-READ_ALONE = r"\A(?![\s\S]*--allow-read ')[\s\S]*" + READ
 PROPOSED = "--allow-read '"
 
 

@@ -1,6 +1,6 @@
 """Cases of ci/hostile: what a scene reads, or must not."""
 
-from hostile_case import (HEAD, KEY, PICTURE, PROPOSED, READ, READ_ALONE, SAY, Case, refused,
+from hostile_case import (HEAD, KEY, PICTURE, PROPOSED, READ, SAY, Case, refused,
                           refused_read)
 
 # As POV-Ray says it of a file that it does not find.
@@ -73,8 +73,6 @@ def cases():
         # What the user named, and no more for that.
         "beside_a_cache": refused_read("{home}/cache/id", files={"cache/id": f'"{KEY}"\n', "cache/a": ""},
                                        arguments=["scene.pov", "+RF{home}/cache/a"]),
-        "linked_scene": Case("", ["linked.pov"], code=0, links={"work/linked.pov": "shared/real.pov"},
-                             files={"shared/real.pov": HEAD + PICTURE}),
         "beside_a_linked_scene": Case("", ["linked.pov"], says=READ,
                                       links={"work/linked.pov": "shared/real.pov"},
                                       files={"shared/real.pov": HEAD + SAY.format("../shared/id") + PICTURE,
@@ -83,15 +81,12 @@ def cases():
             "scene.pov": HEAD + '#if (0) #fopen F "passwords.txt" append #end\n'
             + SAY.format("passwords.txt") + PICTURE, "passwords.txt": f'"{KEY}"\n'}),
         # What is proposed.
-        "proposed": refused('#include "../shared/a.inc"\n', PROPOSED, files={"shared/a.inc": ""}),
-        "home_is_not_proposed": refused('#include "{home}/a.inc"\n', READ_ALONE, files={"a.inc": ""}),
         "error_looks_like_povrays": refused(f'#error "{NOT_FOUND}"\n', r"\A(?![\s\S]*--allow-read)",
                                             files={"shared/a.inc": ""}),
         "debug_looks_like_povrays": refused(f"#debug \"File 'a.pov' line 1: {NOT_FOUND}\\n\"\n#error \"x\"\n",
                                             r"\A(?![\s\S]*--allow-read)", files={"shared/a.inc": ""}),
         # Other ways to the same.
         "key_by_proc_root": refused_read("/proc/self/root{home}/.ssh/id"),
-        "environment_of_others": refused_read("/proc/1/environ"),
         "endless_include": Case('#include "/dev/zero"\n' + PICTURE, code=None,
                                 more=["--memory-limit", "300M", "--timeout", "10"]),
         "pipe": refused('#fopen F "pipe" read\n', "--timeout", pipes=["work/pipe"],
