@@ -1,14 +1,14 @@
 #include "confinement.h"
 
 #include "failure.h"
-#include "inside.h"
 #include "povray_command.h"
 #include "program_files.h"
+#include "refused_file.h"
 #include "scene_files.h"
 #include "scene_folders.h"
+#include "user_settings.h"
 
 #include <fmt/format.h>
-#include <pwd.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,7 +17,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <regex>
 #include <system_error>
 
 namespace mpipov {
@@ -48,31 +47,6 @@ constexpr std::uint64_t least_disk_bytes = std::uint64_t{1} << 30;
 // are written a second time.
 constexpr std::uint64_t disk_bytes_per_pixel = 72;
 
-fs::path home_of_user() {
-    const char* home = std::getenv("HOME");
-    if (home != nullptr && *home != '\0') return home;
-    const passwd* entry = ::getpwuid(::getuid());
-    return entry != nullptr && entry->pw_dir != nullptr ? entry->pw_dir : "";
-}
-
-// POV-Ray's default settings, in the order in which it looks for them; empty where it takes those
-// of the folder of the run or the system's, or none.
-fs::path settings_of_user(const fs::path& home) {
-    std::error_code error;
-    const char* named = std::getenv("POVINI");
-    if (named != nullptr && fs::is_regular_file(named, error)) return fs::absolute(named, error);
-    if (fs::exists("povray.ini", error)) return {};
-    if (home.empty()) return {};
-    const fs::path own = home / version_folder / "povray.ini";
-    if (fs::is_regular_file(own, error)) return own;
-    // The system's come before the older name of the user's.
-    for (const char* systems :
-         {"/etc/povray/3.7/povray.ini", "/usr/local/etc/povray/3.7/povray.ini"})
-        if (fs::exists(systems, error)) return {};
-    const fs::path older = home / ".povrayrc";
-    return fs::is_regular_file(older, error) ? older : fs::path();
-}
-
 fs::path write_configuration(const fs::path& own) {
     const fs::path home = own / "home";
     std::error_code error;
@@ -95,26 +69,12 @@ std::uint64_t number_in(const char* file) {
     return end.ec == std::errc() && end.ptr == word.data() + word.size() ? number : 0;
 }
 
-bool really_lies_in(const fs::path& file, const fs::path& folder) {
-    std::error_code error;
-    return lies_in(fs::weakly_canonical(file, error), fs::weakly_canonical(folder, error));
-}
-
 void require_present(const char* option, const std::vector<fs::path>& paths) {
     std::error_code error;
     for (const fs::path& path : paths)
         if (!fs::exists(path, error))
             throw Failure(Exit::usage,
                           fmt::format("{} '{}': no such file or folder", option, path.string()));
-}
-
-// POV-Ray breaks lines anywhere and drops nothing.
-std::optional<std::string> name_after(std::string_view text, const char* pattern) {
-    std::string joined(text);
-    std::erase(joined, '\n');
-    std::smatch match;
-    if (!std::regex_search(joined, match, std::regex(pattern))) return {};
-    return match[1].str();
 }
 
 }  // namespace
@@ -134,18 +94,22 @@ HostResources resources_of_host(int cores) {
 
 Confinement::Confinement(const Options& options, const HostResources& host, const fs::path& own)
     : on_(true), memory_(options.memory_limit), disk_(options.disk_limit), host_(host) {
-    const fs::path home = home_of_user();
-    const fs::path settings = settings_of_user(home);
-    std::error_code error;
-    const fs::path run_folder = fs::current_path(error);
+    const FolderRequest user = request_of_user(options.povray_arguments);
+    const fs::path &home = user.home, &settings = user.settings, &run_folder = user.run_folder;
+    home_ = home;
     FileAccess scene;
-    scene.read = scene_folders({options.povray_arguments, run_folder, home, settings});
+    scene.read = scene_folders(user);
     resolve_links(scene);
     users_ = scene.read;
-    environment_ = {{"HOME", write_configuration(own).string()}};
-    if (!settings.empty()) environment_.emplace_back("POVINI", settings.string());
+    std::error_code error;
     for (const fs::path& path : options.allow_read)
         users_.push_back(fs::weakly_canonical(path, error));
+    environment_ = {{"HOME", write_configuration(own).string()}};
+    if (!settings.empty()) environment_.emplace_back("POVINI", settings.string());
+    if (std::getenv("LD_LIBRARY_PATH") != nullptr)
+        environment_.emplace_back("LD_LIBRARY_PATH", library_path_for_scenes());
+    program_name_ = options.povray;
+    program_file_ = find_program(options.povray);
     off_ = options.confine == Confining::off;
     if (off_) return;
     if (!can_restrict_files()) {
@@ -156,10 +120,7 @@ Confinement::Confinement(const Options& options, const HostResources& host, cons
     }
     require_present("--allow-read", options.allow_read);
     require_present("--allow-write", options.allow_write);
-    const fs::path program = find_program(options.povray);
-    program_ = files_of_program(program);
-    if (is_for_more_than_a_scene(program.parent_path(), home))
-        std::erase(program_.execute, program.parent_path());
+    program_ = files_of_program(program_file_, home);
     for (const fs::path& path : options.allow_read)
         program_.read.push_back(fs::absolute(path, error));
     for (const fs::path& path : options.allow_write)
@@ -171,8 +132,7 @@ Confinement::Confinement(const Options& options, const HostResources& host, cons
     search(run_folder, options.povray_arguments);
     writes_ = writes_of_scene(options.povray_arguments, {searched_.begin() + 1, searched_.end()});
     // Where it may write there anyway it does so as POV-Ray alone.
-    for (const fs::path& folder : files_->write)
-        if (really_lies_in(run_folder, folder)) writes_.any = false;
+    if (may_be_read(run_folder, files_->write)) writes_.any = false;
 }
 
 void Confinement::search(const fs::path& run_folder, const std::vector<std::string>& arguments) {
@@ -238,6 +198,9 @@ ChildRequest Confinement::request(LaunchNeeds needs) const {
     request.environment = temporary_files_in(needs.folder);
     request.timeout_seconds = needs.timeout_seconds;
     if (!on_) return request;
+    // Not one of that name in the folder that it runs in, where PATH has an empty part.
+    if (!program_file_.empty() && request.argv.front() == program_name_)
+        request.argv.front() = program_file_.string();
     request.environment.insert(request.environment.end(), environment_.begin(), environment_.end());
     if (const std::uint64_t bytes = memory_limit(needs.threads)) request.memory_limit_bytes = bytes;
     request.file_size_limit_bytes = file_limit(needs);
@@ -248,21 +211,17 @@ ChildRequest Confinement::request(LaunchNeeds needs) const {
     request.files->write.push_back(needs.folder);
     if (writes_.any)
         request.working_directory =
-            make_writable_view(needs.folder / "view", searched_.front(), writes_.names);
+            make_writable_view(needs.folder / "view", searched_.front(), writes_, files_->read);
     request.files->read.insert(request.files->read.end(), needs.reads.begin(), needs.reads.end());
     return request;
 }
 
 bool Confinement::is_users(const fs::path& file) const {
-    std::error_code error;
-    const fs::path real = fs::weakly_canonical(file, error);
-    // Of a folder that is a link still the kernel follows none either.
-    return std::ranges::any_of(users_, [&](const fs::path& path) { return lies_in(real, path); });
+    return may_be_read(file, users_);
 }
 
-bool Confinement::may_read(const fs::path& file) const {
-    const auto in = [&](const fs::path& folder) { return really_lies_in(file, folder); };
-    return std::ranges::any_of(files_->read, in) || std::ranges::any_of(files_->write, in);
+bool Confinement::may_read(const fs::path& path) const {
+    return !files_ || may_be_read(path, files_->read) || may_be_read(path, files_->write);
 }
 
 std::string Confinement::way_out(std::string_view error) const {
@@ -272,22 +231,37 @@ std::string Confinement::way_out(std::string_view error) const {
     if (error.find("bad_alloc") != std::string_view::npos)
         return " (out of memory: allow a launch more with --memory-limit)";
     if (!files_) return {};
-    if (const auto name = name_after(error, "Cannot open user file (.*) \\((?:write|append)\\)"))
-        return fmt::format(" (a scene may not write there: allow it with --allow-write '{}')",
-                           (searched_.front() / *name).lexically_normal().parent_path().string());
-    const auto name = name_after(error, "Cannot find file '([^']*)'");
-    if (!name) return {};
+    const auto refused = refused_file(error);
+    if (!refused) return {};
+    return refused->to_write ? way_to_write(refused->name) : way_to_read(refused->name);
+}
+
+std::string Confinement::way_to_read(const std::string& name) const {
     for (const fs::path& folder : searched_) {
-        const fs::path file = (folder / *name).lexically_normal();
+        const fs::path file = (folder / name).lexically_normal();
         std::error_code ignored;
         if (!fs::exists(file, ignored) || may_read(file)) continue;
         const fs::path real = fs::weakly_canonical(file, ignored);
-        return fmt::format(
-            " ('{}' is in a folder that a scene may not read: allow it with "
-            "--allow-read '{}')",
-            real.string(), real.parent_path().string());
+        const std::string refused =
+            fmt::format(" ('{}' may not be read by a scene: ", file.string());
+        if (is_a_scenes_file(real) && may_be_proposed(real.parent_path(), home_))
+            return refused + fmt::format("allow its folder with --allow-read '{}')",
+                                         real.parent_path().string());
+        return refused + "if you trust the scene with it, see --allow-read)";
     }
     return {};
+}
+
+std::string Confinement::way_to_write(const std::string& name) const {
+    std::error_code ignored;
+    const fs::path file = (searched_.front() / name).lexically_normal();
+    const fs::path real = fs::weakly_canonical(file, ignored).parent_path();
+    if (may_be_read(real, files_->write)) return {};
+    const std::string refused =
+        fmt::format(" ('{}' may not be written by a scene: ", file.string());
+    if (fs::is_directory(real, ignored) && may_be_proposed(real, home_))
+        return refused + fmt::format("allow its folder with --allow-write '{}')", real.string());
+    return refused + "if you trust the scene with it, see --allow-write)";
 }
 
 }  // namespace mpipov

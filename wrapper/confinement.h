@@ -44,6 +44,7 @@ struct SceneCopy {
     std::filesystem::path run_folder;    // where POV-Ray runs
     std::filesystem::path settings;      // its povray.ini
     std::vector<std::string> arguments;  // POV-Ray's
+    bool operator==(const SceneCopy&) const = default;
 };
 
 class Confinement {
@@ -69,6 +70,10 @@ class Confinement {
     // Whether files are out of its reach: not where the kernel cannot, nor with --confine off.
     bool restricts_files() const { return files_.has_value(); }
 
+    // Whether a scene may read a file or folder, links followed: what else it names is not its own,
+    // and is not for other hosts either.
+    bool may_read(const std::filesystem::path& path) const;
+
     // What the user should know before he waits for the image; empty: nothing.
     std::string note() const;
 
@@ -86,12 +91,16 @@ class Confinement {
     std::uint64_t memory_limit(int threads) const;
     std::optional<std::uint64_t> file_limit(const LaunchNeeds& needs) const;
     std::optional<std::uint64_t> folder_limit(const LaunchNeeds& needs) const;
-    bool may_read(const std::filesystem::path& file) const;
+    std::string way_to_read(const std::string& name) const;
+    std::string way_to_write(const std::string& name) const;
 
     bool on_ = false, off_ = false;  // limits at all; files left alone because the user says so
-    FileAccess program_;             // what any scene may
+    std::string program_name_;       // --povray
+    std::filesystem::path program_file_;  // found for it here; empty: none
+    FileAccess program_;                  // what any scene may
     std::optional<FileAccess> files_;
     std::vector<std::filesystem::path> users_;  // see is_users()
+    std::filesystem::path home_;                // the user's
     std::filesystem::path run_folder_;          // of a copy; empty: ours
     std::vector<std::pair<std::string, std::string>> environment_;
     std::vector<std::filesystem::path> searched_;  // for names that are relative

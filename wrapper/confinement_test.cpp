@@ -14,7 +14,10 @@ namespace mpipov {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::Contains;
+using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -22,6 +25,16 @@ using testing::Optional;
 using testing::Pair;
 
 constexpr std::uint64_t mib = std::uint64_t{1} << 20, gib = mib << 10;
+
+std::string not_found(const std::string& name) {
+    return "Possible Parse Error: Cannot find file '" + name +
+           "', even after trying to append file type extension.\n"
+           "Parse Error: Cannot open include file x.\n";
+}
+
+std::string not_written(const std::string& name) {
+    return "File 'a.pov' line 1: Parse Error: Cannot open user file " + name + " (write).\n";
+}
 
 class ConfinementTest : public testing::Test {
   protected:
@@ -58,7 +71,7 @@ TEST_F(ConfinementTest, GivesPovrayAHomeOfTheRuns) {
     EXPECT_THAT(request.environment, Contains(Pair("HOME", at("own/home").string())));
     EXPECT_THAT(request.environment, Contains(Pair("POV_TEMP_DIR", at("launch").string())));
     EXPECT_TRUE(fs::exists(at("own/home/.povray/3.7/povray.conf")));
-    EXPECT_EQ(request.argv, needs().argv);
+    EXPECT_THAT(request.argv, ElementsAre(EndsWith("povray"), "scene.pov"));
     EXPECT_TRUE(request.working_directory.empty());
     EXPECT_EQ(confinement().note().empty(), can_restrict_files());
 }
@@ -69,7 +82,7 @@ TEST_F(ConfinementTest, KeepsTheUsersOwnSettings) {
     std::ofstream(settings) << "Library_Path=" << at("other").string() << '\n';
     const Confinement own = confinement();
     EXPECT_THAT(own.request(needs()).environment, Contains(Pair("POVINI", settings.string())));
-    EXPECT_THAT(own.way_out("Cannot find file '" + at("other/tile.png").string() + "'"), IsEmpty())
+    EXPECT_THAT(own.way_out(not_found(at("other/tile.png").string())), IsEmpty())
         << "it may be read, so that is not the cause";
     std::ofstream(at("work/povray.ini")) << "+W320\n";
     for (const auto& [name, value] : confinement().request(needs()).environment)
@@ -93,17 +106,47 @@ TEST_F(ConfinementTest, AllowsWhatWasNamedAndTheLaunchsFolder) {
 TEST_F(ConfinementTest, SaysWhatMayBeAllowed) {
     if (!can_restrict_files()) GTEST_SKIP() << "this kernel has no Landlock";
     const Confinement it = confinement();
-    EXPECT_THAT(it.way_out("Cannot find file '../other/tile.png', even"),
+    EXPECT_THAT(it.way_out(not_found("../other/tile.png")),
                 HasSubstr("--allow-read '" + at("other").string() + "'"));
-    EXPECT_THAT(it.way_out("Cannot find file\n '" + at("other").string() + "/ti\nle.png', even"),
-                HasSubstr("--allow-read"))
-        << "POV-Ray breaks lines";
-    EXPECT_THAT(it.way_out("Cannot find file '../other/none.png'"), IsEmpty());
-    EXPECT_THAT(it.way_out("Cannot find file 'none.png'"), IsEmpty());
-    EXPECT_THAT(it.way_out("Cannot open user file ../other/a.txt (write)."),
+    EXPECT_THAT(it.way_out(not_found("../other/none.png")), IsEmpty());
+    EXPECT_THAT(it.way_out(not_found("none.png")), IsEmpty());
+    EXPECT_THAT(it.way_out(not_written("../other/a.txt")),
                 HasSubstr("--allow-write '" + at("other").string() + "'"));
     EXPECT_THAT(it.way_out("Parse Error: std::bad_alloc"), HasSubstr("--memory-limit"));
     EXPECT_THAT(Confinement().way_out("Parse Error: std::bad_alloc"), IsEmpty());
+}
+
+// A scene chooses the name; what it then has from the user is his own doing.
+TEST_F(ConfinementTest, ProposesNoFolderThatASceneMustNotHave) {
+    if (!can_restrict_files()) GTEST_SKIP() << "this kernel has no Landlock";
+    fs::create_directory(at("home/.ssh"));
+    for (const char* file : {"home/a.inc", "home/.ssh/a.inc", "other/notes.txt"})
+        std::ofstream(at(file)) << "x";
+    const Confinement it = confinement();
+    for (const std::string& name : {at("home/a.inc").string(), at("home/.ssh/a.inc").string(),
+                                    std::string("/etc/passwd"), at("other/notes.txt").string()}) {
+        EXPECT_THAT(it.way_out(not_found(name)),
+                    AllOf(HasSubstr("'" + name + "' may not be read"), HasSubstr("--allow-read"),
+                          Not(HasSubstr("--allow-read '"))));
+        EXPECT_THAT(
+            it.way_out("File 'a.pov' line 1: Parse Error: Parse halted by #error directive: " +
+                       not_found(name)),
+            IsEmpty());
+    }
+    EXPECT_THAT(it.way_out(not_written(at("home/a.txt").string())),
+                AllOf(HasSubstr("may not be written"), Not(HasSubstr("--allow-write '"))));
+}
+
+TEST_F(ConfinementTest, PovrayIsTheOneThatWasFoundFirst) {
+    std::ofstream(at("other/povray-here")) << "#!/bin/sh\n";
+    fs::permissions(at("other/povray-here"), fs::perms::owner_all);
+    const std::string before = std::getenv("PATH");
+    ::setenv("PATH", (":" + at("other").string()).c_str(), 1);
+    options_.povray = "povray-here";
+    LaunchNeeds needs = this->needs();
+    needs.argv.front() = "povray-here";
+    EXPECT_EQ(confinement().request(needs).argv.front(), at("other/povray-here"));
+    ::setenv("PATH", before.c_str(), 1);
 }
 
 TEST_F(ConfinementTest, WhatIsToBeAllowedMustBeThere) {

@@ -1,6 +1,6 @@
 #include "job_identity.h"
 
-#include "journal.h"
+#include "fingerprint.h"
 #include "scene_files.h"
 #include "scene_view.h"
 #include "sha1_digits.h"
@@ -39,20 +39,20 @@ json settings_of(const IniSettings& settings) {
     return out;
 }
 
-// SHA-1; of a file so large that reading it would hold the run up, its size and time of change.
-std::string fingerprint(const std::filesystem::path& file) {
-    constexpr std::uintmax_t most_read_bytes = std::uintmax_t{1} << 30;
+// Of a file that is not read as a whole the time of change too: that it was written to between the
+// pieces must not be missed.
+std::string state_of(const std::filesystem::path& file) {
+    std::string state = fingerprint(file);
     std::error_code error;
-    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-    if (error || bytes <= most_read_bytes) return sha1_of_file(file);
+    if (state.empty() || is_of_whole_file(state)) return state;
     const auto changed = std::filesystem::last_write_time(file, error).time_since_epoch().count();
-    return fmt::format("{} bytes, changed {}", bytes, changed);
+    return fmt::format("{}, changed {}", state, changed);
 }
 
 json files_of(const Probe& probe, const std::vector<std::string>& arguments) {
     json files = json::object();
     for (const std::filesystem::path& file : scene_files(scene_request(probe, arguments)))
-        files[file.string()] = fingerprint(file);
+        files[file.string()] = state_of(file);
     return files;
 }
 

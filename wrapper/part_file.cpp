@@ -29,20 +29,6 @@ constexpr int pause_milliseconds = 50;
     throw Failure(Exit::file, fmt::format("cannot write '{}': {}", target.string(), why));
 }
 
-// Not fs::canonical: what the last link names need not be there yet.
-fs::path end_of_links(const fs::path& file) {
-    constexpr int most = 40;  // as Linux
-    fs::path end = file;
-    std::error_code error;
-    for (int followed = 0; fs::is_symlink(fs::symlink_status(end, error)); ++followed) {
-        if (followed == most) refuse(file, std::strerror(ELOOP));
-        const fs::path next = fs::read_symlink(end, error);
-        if (error) refuse(file, error.message());
-        end = end.parent_path() / next;
-    }
-    return end;
-}
-
 // Opening a pipe waits for its reader, and writing for that to read: a user must be able to
 // interrupt both.
 Fd open_to_write_into(const fs::path& target) {
@@ -76,6 +62,20 @@ bool is_written_into(const fs::path& target) {
     std::error_code error;
     const fs::file_status status = fs::status(target, error);
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+// Not fs::canonical: what the last link names need not be there yet.
+fs::path end_of_links(const fs::path& file) {
+    constexpr int most = 40;  // as Linux
+    fs::path end = file;
+    std::error_code error;
+    for (int followed = 0; fs::is_symlink(fs::symlink_status(end, error)); ++followed) {
+        if (followed == most) refuse(file, std::strerror(ELOOP));
+        const fs::path next = fs::read_symlink(end, error);
+        if (error) refuse(file, error.message());
+        end = end.parent_path() / next;
+    }
+    return end;
 }
 
 PartFile::PartFile(const fs::path& target)

@@ -9,6 +9,10 @@ namespace mpipov {
 // A pipe or a device (/dev/null): it stays what it is.
 bool is_written_into(const std::filesystem::path& target);
 
+// Where the links lead that stand at the end of `file`, though nothing be there yet. Throws
+// Failure(Exit::file) where they lead in a circle.
+std::filesystem::path end_of_links(const std::filesystem::path& file);
+
 // An empty file of a short name of its own in the folder of `target` (which may have the longest
 // name that a file can have); a reader that looks for images does not see it. What has not taken
 // the target's place in the end is removed.

@@ -1,5 +1,9 @@
 #include "program_files.h"
 
+#include "child_process.h"
+#include "inside.h"
+#include "scene_folders.h"
+
 #include <elf.h>
 #include <unistd.h>
 
@@ -83,13 +87,54 @@ std::optional<fs::path> loader_of(const fs::path& program) {
     return fs::path();
 }
 
+// Of an installed POV-Ray: not the whole of its prefix's share, etc and lib, which may be those of
+// a home folder.
 void add_povrays_own(const fs::path& prefix, std::vector<fs::path>& read) {
-    std::error_code error;
-    for (fs::directory_iterator it(prefix / "share", error);
-         !error && it != fs::directory_iterator(); it.increment(error))
-        if (it->path().filename().string().rfind("povray", 0) == 0) read.push_back(it->path());
-    for (const char* own : {"share/doc/povray", "etc/povray", "lib", "lib64"})
+    for (const char* own : {"share/povray", "share/povray-3.7", "share/povray-3.8",
+                            "share/doc/povray", "share/doc/povray-3.7", "etc/povray"})
         read.push_back(prefix / own);
+}
+
+// What the loader would map for it, the libraries of libraries too: a line is
+// "libz.so.1 => /lib/libz.so.1 (0x7f...)". It starts nothing of the program.
+std::vector<fs::path> libraries_of(const fs::path& program, const fs::path& loader) {
+    ChildRequest request;
+    request.argv = {loader.string(), "--list", program.string()};
+    request.environment = {{"LD_LIBRARY_PATH", library_path_for_scenes()}};
+    request.timeout_seconds = 10;
+    std::string output;
+    run_to_end(request, &output);
+    std::vector<fs::path> found;
+    for (const std::string_view line : split(output, '\n')) {
+        const std::size_t begin = line.find('/'), end = line.rfind(" (0x");
+        if (begin != std::string_view::npos && end != std::string_view::npos && begin < end)
+            found.emplace_back(line.substr(begin, end - begin));
+    }
+    return found;
+}
+
+bool is_the_systems(const fs::path& program) {
+    return lies_in(program, "/usr") || lies_in(program, "/bin");
+}
+
+// Beside a script: what it may call, and no notes, settings or keys.
+void add_programs_beside(const fs::path& script, std::vector<fs::path>& execute) {
+    std::error_code error;
+    for (fs::directory_iterator it(script.parent_path(), error);
+         !error && it != fs::directory_iterator(); it.increment(error))
+        if (can_run(it->path())) execute.push_back(it->path());
+}
+
+void add_library_folder(const fs::path& folder, const fs::path& home, std::vector<fs::path>& read) {
+    if (!is_for_more_than_a_scene(folder, home) && (home.empty() || !may_be_read(folder, {home}))) {
+        read.push_back(folder);
+        return;
+    }
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error); !error && it != fs::directory_iterator();
+         it.increment(error))
+        if (it->path().filename().string().find(".so") != std::string::npos)
+            read.push_back(it->path());
 }
 
 }  // namespace
@@ -105,26 +150,41 @@ fs::path find_program(const std::string& program) {
     return {};
 }
 
-FileAccess files_of_program(const fs::path& program) {
+std::string library_path_for_scenes() {
+    std::string kept;
+    std::error_code error;
+    for (const std::string_view folder : split(variable("LD_LIBRARY_PATH"), ':'))
+        if (!folder.empty())
+            kept += (kept.empty() ? "" : ":") + fs::absolute(fs::path(folder), error).string();
+    return kept;
+}
+
+FileAccess files_of_program(const fs::path& program, const fs::path& home) {
     FileAccess access;
     access.write = {"/dev/null"};
     access.read.assign(libraries.begin(), libraries.end());
     access.read.insert(access.read.end(), anybodys.begin(), anybodys.end());
-    for (const std::string_view folder : split(variable("LD_LIBRARY_PATH"), ':'))
-        if (!folder.empty()) access.read.emplace_back(folder);  // empty: the current folder
     for (const char* prefix : {"/usr", "/usr/local"}) add_povrays_own(prefix, access.read);
     access.read.emplace_back("/etc/povray");
     if (program.empty()) return access;
     access.execute.push_back(program);
     std::error_code error;
-    add_povrays_own(fs::weakly_canonical(program, error).parent_path().parent_path(), access.read);
+    const fs::path real = fs::weakly_canonical(program, error);
+    add_povrays_own(real.parent_path().parent_path(), access.read);
+    const std::string more_libraries = library_path_for_scenes();
     if (const auto loader = loader_of(program)) {
         access.execute.push_back(*loader);
+        if (loader->empty() || (is_the_systems(real) && more_libraries.empty())) return access;
+        for (fs::path& library : libraries_of(real, *loader))
+            access.read.push_back(std::move(library));
         return access;
     }
     access.execute.insert(access.execute.end(), libraries.begin(), libraries.end());
     access.execute.insert(access.execute.end(), programs.begin(), programs.end());
-    access.execute.push_back(program.parent_path());
+    for (const std::string_view folder : split(more_libraries, ':'))
+        add_library_folder(folder, home, access.read);
+    if (!is_for_more_than_a_scene(program.parent_path(), home))
+        add_programs_beside(program, access.execute);
     return access;
 }
 

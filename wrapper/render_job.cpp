@@ -14,6 +14,7 @@
 #include "job_identity.h"
 #include "meet_ranks.h"
 #include "other_file.h"
+#include "output_bounds.h"
 #include "output_place.h"
 #include "probe.h"
 #include "progress.h"
@@ -83,7 +84,8 @@ std::optional<Journal> begin_journal(const Options& options, const OutputPlace& 
     return Journal::create(place.work_folder(), identity, to_json(plan.record));
 }
 
-// So that every rank can render.
+// So that every rank can render. What the settings name and a scene may not read (an INI file
+// beside it is the scene's) is not sent: it would be the scene's there.
 Shipping bring_scene_to_all(const Options& options, const std::vector<std::string>& arguments,
                             const Probe& probe, const MetRanks& met, const Confinement& confinement,
                             Transport& transport) {
@@ -93,10 +95,12 @@ Shipping bring_scene_to_all(const Options& options, const std::vector<std::strin
         arguments,
         [&](const std::filesystem::path& file) { return confinement.is_users(file); },
         {}};
+    std::erase_if(request.scene.library_paths,
+                  [&](const auto& path) { return !confinement.may_read(path); });
     // A radiosity cache of the user's, which the scene does not name.
     if (probe.result.own_cache)
         for (const auto& [key, value] : probe.settings)
-            if (key == "Radiosity_File_Name")
+            if (key == "Radiosity_File_Name" && confinement.may_read(value))
                 request.scene.options.push_back(fmt::format("+I\"{}\"", value));
     for (std::size_t rank = 0; rank < met.ranks.size(); ++rank)
         request.ranks.push_back({met.ranks[rank].host, met.views[rank]});
@@ -155,6 +159,7 @@ void run_job(const JobSetup& setup, Transport& transport, Worker& worker) {
     record.warnings = probe.warnings;
 
     const OutputPlace place(probe.result.image.output_file, options.record, options.work_dir);
+    require_within_bounds(place, options, request_of_user(options.povray_arguments));
     MetRanks met = meet_ranks(setup.rank0, setup.pool0, transport, povray);
     if (options.dedicated_coordinator) met.ranks[0].slots = 0;
     if (!section_format(probe.result.image.type).empty()) stop_early();

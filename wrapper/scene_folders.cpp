@@ -3,6 +3,7 @@
 #include "inside.h"
 #include "letter_case.h"
 #include "scene_files.h"
+#include "user_settings.h"
 
 #include <sys/stat.h>
 
@@ -32,6 +33,7 @@ struct Spelling {
 };
 constexpr Spelling library_path{"l", "library_path"};
 constexpr Spelling cache_file{"rf", "radiosity_file_name"};
+constexpr Spelling output_file{"o", "output_file_name"};
 
 std::string_view value_in_word(std::string_view word, const Spelling& spelling) {
     word = unquoted(word);
@@ -57,12 +59,13 @@ std::vector<std::string> values_in(std::string_view option, const Spelling& spel
     return values;
 }
 
-// What scenes read: themselves, includes, images, fonts, densities, meshes of points.
-bool is_a_scenes_file(const fs::path& file) {
-    constexpr std::array kinds{".pov", ".inc", ".ini", ".mcr", ".tga",  ".gif", ".iff",
-                               ".pgm", ".ppm", ".png", ".jpg", ".jpeg", ".tif", ".tiff",
-                               ".bmp", ".exr", ".hdr", ".ttf", ".otf",  ".df3"};
-    return std::find(kinds.begin(), kinds.end(), lower(file.extension().string())) != kinds.end();
+std::vector<std::string> values_of(const fs::path& ini, const Spelling& spelling) {
+    std::vector<std::string> values;
+    std::ifstream in(ini);
+    for (std::string line; std::getline(in, line);)
+        for (std::string& value : values_in(line.substr(0, line.find(';')), spelling))
+            values.push_back(std::move(value));
+    return values;
 }
 
 class Folders {
@@ -70,7 +73,7 @@ class Folders {
     explicit Folders(const FolderRequest& request) : request_(request) {
         for (const std::string& argument : request.arguments) {
             for (const std::string& name : names_in_option(argument)) add_named(name);
-            for (const std::string& name : caches_in(argument)) add_named(name);
+            for (const std::string& name : caches_in(argument)) add_file(from_run(name));
             for (const std::string& folder : library_paths_in(argument)) add(from_run(folder));
         }
         if (!is_for_more_than_a_scene(request.run_folder, request.home)) add(request.run_folder);
@@ -91,13 +94,19 @@ class Folders {
         if (fs::is_directory(folder, error)) paths_.insert(folder);
     }
 
+    bool add_file(const fs::path& file) {
+        std::error_code error;
+        if (!fs::is_regular_file(file, error)) return false;
+        paths_.insert(file);
+        return true;
+    }
+
     void add_named(const std::string& name) {
         std::error_code error;
         fs::path file = from_run(name);
         // A scene may be named without its extension.
         if (!fs::is_regular_file(file, error)) file += ".pov";
-        if (!fs::is_regular_file(file, error)) return;
-        paths_.insert(file);
+        if (!add_file(file)) return;
         if (!is_for_more_than_a_scene(file.parent_path(), request_.home)) {
             add(file.parent_path());
             return;
@@ -121,12 +130,15 @@ std::vector<std::string> library_paths_in(std::string_view option) {
 }
 
 std::vector<std::string> library_paths_of(const fs::path& ini) {
-    std::vector<std::string> paths;
-    std::ifstream in(ini);
-    for (std::string line; std::getline(in, line);)
-        for (std::string& path : library_paths_in(line.substr(0, line.find(';'))))
-            paths.push_back(std::move(path));
-    return paths;
+    return values_of(ini, library_path);
+}
+
+std::vector<std::string> outputs_in(std::string_view option) {
+    return values_in(option, output_file);
+}
+
+std::vector<std::string> outputs_of(const fs::path& ini) {
+    return values_of(ini, output_file);
 }
 
 std::vector<std::string> caches_in(std::string_view option) {
@@ -141,6 +153,27 @@ bool is_for_more_than_a_scene(const fs::path& folder, const fs::path& home) {
     if (real == real.root_path()) return true;
     if (home.empty()) return false;
     return lies_in(fs::weakly_canonical(home, error), real);
+}
+
+bool is_a_scenes_file(const fs::path& file) {
+    constexpr std::array kinds{".pov", ".inc", ".ini", ".mcr", ".tga",  ".gif", ".iff",
+                               ".pgm", ".ppm", ".png", ".jpg", ".jpeg", ".tif", ".tiff",
+                               ".bmp", ".exr", ".hdr", ".ttf", ".otf",  ".df3"};
+    return std::find(kinds.begin(), kinds.end(), lower(file.extension().string())) != kinds.end();
+}
+
+FolderRequest request_of_user(std::vector<std::string> arguments) {
+    const fs::path home = home_of_user();
+    std::error_code error;
+    return {std::move(arguments), fs::current_path(error), home, settings_of_user(home)};
+}
+
+bool may_be_read(const fs::path& file, const std::vector<fs::path>& readable) {
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(file, error);
+    return std::ranges::any_of(readable, [&](const fs::path& one) {
+        return lies_in(real, fs::weakly_canonical(one, error));
+    });
 }
 
 std::vector<fs::path> scene_folders(const FolderRequest& request) {

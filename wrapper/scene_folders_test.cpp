@@ -69,7 +69,29 @@ TEST_F(SceneFoldersTest, NoIniFileOfTheScenesNamesOne) {
 TEST_F(SceneFoldersTest, ARadiosityCacheIsReadAlone) {
     std::ofstream(at("home/.ssh/cache")) << "x";
     EXPECT_THAT(folders("home/work", {"+RF\"../lib/x.inc\""}),
-                UnorderedElementsAre(at("home/lib"), at("home/lib/x.inc"), at("home/work")));
+                UnorderedElementsAre(at("home/lib/x.inc"), at("home/work")));
+    EXPECT_THAT(folders("home/work", {"+RF../.ssh/cache", "+RF../.ssh/to_be_written"}),
+                UnorderedElementsAre(at("home/.ssh/cache"), at("home/work")));
+}
+
+TEST_F(SceneFoldersTest, OneRuleSaysWhatMayBeRead) {
+    fs::create_symlink("../.ssh/id", at("home/work/link"));
+    const std::vector<fs::path> readable = folders("home", {"work/scene.pov", "+RFlib/x.inc"});
+    EXPECT_TRUE(may_be_read(at("home/work/parts/a.inc"), readable));
+    EXPECT_TRUE(may_be_read(at("home/work/not_there"), readable));
+    EXPECT_TRUE(may_be_read(at("home/work/../lib/x.inc"), readable));
+    EXPECT_FALSE(may_be_read(at("home/lib/y.inc"), readable));
+    EXPECT_FALSE(may_be_read(at("home/passwords.txt"), readable));
+    EXPECT_FALSE(may_be_read(at("home/work/../.ssh/id"), readable));
+    EXPECT_FALSE(may_be_read(at("home/work/link"), readable));
+    EXPECT_FALSE(may_be_read(at("home/work/parts/a.inc"), {}));
+}
+
+TEST_F(SceneFoldersTest, ASceneThatIsALinkOpensItsFileAndNotThatsFolder) {
+    fs::create_symlink("../lib/x.inc", at("home/work/link.pov"));
+    const std::vector<fs::path> readable = folders("home/work", {"link.pov"});
+    EXPECT_TRUE(may_be_read(at("home/lib/x.inc"), readable));
+    EXPECT_FALSE(may_be_read(at("home/lib/y.inc"), readable));
 }
 
 TEST_F(SceneFoldersTest, OfTheHomeFolderOnlyNeighboursOfAScene) {

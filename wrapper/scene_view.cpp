@@ -1,6 +1,6 @@
 #include "scene_view.h"
 
-#include "journal.h"
+#include "fingerprint.h"
 #include "message_fields.h"
 
 #include <fmt/format.h>
@@ -39,11 +39,11 @@ SceneView view_scene(const SceneRequest& request, const std::vector<fs::path>& m
     SceneView view;
     for (const fs::path& file : more)
         if (std::error_code error; fs::is_regular_file(file, error))
-            view.files[file.string()] = sha1_of_file(file);
+            view.files[file.string()] = fingerprint(file);
     for (const fs::path& file : scene_names(request).all)
-        view.files[file.string()] = sha1_of_file(file);
+        view.files[file.string()] = fingerprint(file);
     const fs::path ini = povray_ini();
-    if (!ini.empty()) view.ini_sha1 = sha1_of_file(ini);
+    if (!ini.empty()) view.ini_sha1 = fingerprint(ini);
     return view;
 }
 

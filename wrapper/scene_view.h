@@ -15,7 +15,8 @@
 namespace mpipov {
 
 struct SceneView {
-    std::map<std::string, std::string> files;  // as they are named -> SHA-1; "": cannot be read
+    std::map<std::string, std::string>
+        files;             // as they are named -> fingerprint(); "": cannot be read
     std::string ini_sha1;  // of what POV-Ray reads as its povray.ini; "": nothing
 };
 

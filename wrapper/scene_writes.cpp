@@ -2,6 +2,7 @@
 
 #include "file_text.h"
 #include "scene_files.h"
+#include "scene_folders.h"
 
 #include <algorithm>
 #include <iterator>
@@ -15,6 +16,9 @@ namespace fs = std::filesystem;
 // Includes are far shorter, and a scan of a mesh is not worth its time.
 constexpr std::uintmax_t most_scanned_bytes = std::uintmax_t{16} << 20;
 constexpr std::uintmax_t most_copied_bytes = std::uintmax_t{64} << 20;
+// Of a file, and of all, that a scene may or may not write to: what it keeps notes in is small.
+constexpr std::uintmax_t most_guessed_bytes = std::uintmax_t{1} << 20;
+constexpr std::uintmax_t most_guessed_in_all = std::uintmax_t{16} << 20;
 // Between the directive and its last word.
 constexpr std::size_t longest_name = 400;
 
@@ -35,7 +39,10 @@ void take_directive(std::string_view text, SceneWrites& writes) {
     std::match_results<std::string_view::const_iterator> match;
     if (!std::regex_search(text.begin(), text.end(), match, shape)) return;
     writes.any = true;
-    if (match[1].matched) writes.names.push_back(match[1].str());
+    if (match[1].matched)
+        writes.names.push_back(match[1].str());
+    else
+        writes.computed = true;
 }
 
 }  // namespace
@@ -58,6 +65,7 @@ void take_file(const fs::path& file, SceneWrites& all) {
     if (fs::file_size(file, error) > most_scanned_bytes || error) return;
     SceneWrites one = writes_in(text_of(file));
     all.any = all.any || one.any;
+    all.computed = all.computed || one.computed;
     std::move(one.names.begin(), one.names.end(), std::back_inserter(all.names));
 }
 
@@ -93,10 +101,41 @@ void link_all_but(const fs::path& at, const fs::path& original, const fs::path& 
     for (const fs::path& name : names) fs::create_symlink(original / name, at / name, error);
 }
 
+// Which files of a folder a scene gets copies of.
+class Copies {
+  public:
+    Copies(const fs::path& original, const SceneWrites& written,
+           const std::vector<fs::path>& readable)
+        : written_(written), readable_(readable), all_readable_(may_be_read(original, readable)) {}
+
+    bool takes(const fs::directory_entry& entry) {
+        std::error_code error;
+        // Not what a link leads to: that may be out of the scene's reach.
+        if (entry.symlink_status(error).type() != fs::file_type::regular) return false;
+        if (!all_readable_ && !may_be_read(entry.path(), readable_)) return false;
+        const std::uintmax_t bytes = entry.file_size(error);
+        if (error) return false;
+        if (std::ranges::find(written_.names, entry.path().filename().string()) !=
+            written_.names.end())
+            return bytes <= most_copied_bytes;
+        if (!written_.computed || bytes > most_guessed_bytes ||
+            guessed_bytes_ + bytes > most_guessed_in_all)
+            return false;
+        guessed_bytes_ += bytes;
+        return true;
+    }
+
+  private:
+    const SceneWrites& written_;
+    const std::vector<fs::path>& readable_;
+    bool all_readable_;
+    std::uintmax_t guessed_bytes_ = 0;
+};
+
 }  // namespace
 
 fs::path make_writable_view(const fs::path& folder, const fs::path& original,
-                            const std::vector<std::string>& written) {
+                            const SceneWrites& written, const std::vector<fs::path>& readable) {
     fs::path at = folder, seen = "/";
     fs::create_directory(at);
     for (const fs::path& way : fs::canonical(original).relative_path()) {
@@ -105,14 +144,11 @@ fs::path make_writable_view(const fs::path& folder, const fs::path& original,
         seen /= way;
         fs::create_directory(at);
     }
+    Copies copies(original, written, readable);
     for (const auto& entry : fs::directory_iterator(original)) {
-        const std::string name = entry.path().filename().string();
+        const fs::path name = entry.path().filename();
         std::error_code error;
-        const bool copied = std::find(written.begin(), written.end(), name) != written.end() &&
-                            // Not what a link leads to: that may be out of the scene's reach.
-                            entry.symlink_status(error).type() == fs::file_type::regular &&
-                            entry.file_size(error) <= most_copied_bytes;
-        if (copied)
+        if (copies.takes(entry))
             fs::copy_file(entry.path(), at / name, error);
         else
             fs::create_symlink(entry.path(), at / name, error);

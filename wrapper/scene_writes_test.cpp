@@ -30,7 +30,9 @@ TEST(SceneWrites, AreFoundInTheText) {
 TEST(SceneWrites, MayHaveAComputedName) {
     const SceneWrites writes = writes_in("#fopen A concat(\"a\", \".txt\") write\n");
     EXPECT_TRUE(writes.any);
+    EXPECT_TRUE(writes.computed);
     EXPECT_THAT(writes.names, IsEmpty());
+    EXPECT_FALSE(writes_in("#fopen A \"a.txt\" write\n").computed);
 }
 
 TEST(SceneWrites, AreNotWhatIsReadOrCalledSo) {
@@ -60,8 +62,8 @@ TEST(WritableView, ShowsWhatIsThereAndKeepsWhatIsWritten) {
     std::ofstream(original / "log.txt") << "old";
     fs::create_directories(folder.path() / "library");
     std::ofstream(folder.path() / "library/b.inc") << "b";
-    const fs::path view =
-        make_writable_view(folder.path() / "view", original, {"log.txt", "new.txt"});
+    const fs::path view = make_writable_view(folder.path() / "view", original,
+                                             {true, {"log.txt", "new.txt"}, false}, {original});
     EXPECT_EQ(text_of(view / "../library/b.inc"), "b") << "as +L../library finds it";
     EXPECT_EQ(text_of(view / "scene.pov"), "scene");
     EXPECT_EQ(text_of(view / "parts/a.inc"), "a");
@@ -75,6 +77,36 @@ TEST(WritableView, ShowsWhatIsThereAndKeepsWhatIsWritten) {
     fs::remove_all(folder.path() / "view");
     EXPECT_EQ(text_of(folder.path() / "library/b.inc"), "b");
     EXPECT_EQ(text_of(original / "parts/a.inc"), "a");
+}
+
+TEST(WritableView, HasCopiesOfSmallFilesWhereANameIsComputed) {
+    const ScratchFolder folder("writes-test");
+    const fs::path original = folder.path() / "original";
+    fs::create_directories(original);
+    std::ofstream(original / "log.txt") << "old";
+    std::ofstream(original / "large.txt") << "x";
+    fs::resize_file(original / "large.txt", 2 << 20);
+    const fs::path view =
+        make_writable_view(folder.path() / "view", original, {true, {}, true}, {original});
+    std::ofstream(view / "log.txt", std::ios::app) << " and new";
+    EXPECT_EQ(text_of(view / "log.txt"), "old and new");
+    EXPECT_EQ(text_of(original / "log.txt"), "old");
+    EXPECT_TRUE(fs::is_symlink(view / "large.txt"));
+}
+
+TEST(WritableView, HasNoCopyOfWhatMayNotBeRead) {
+    const ScratchFolder folder("writes-test");
+    const fs::path home = folder.path() / "home";
+    fs::create_directories(home);
+    std::ofstream(home / "passwords.txt") << "secret";
+    std::ofstream(home / "scene.pov") << "scene";
+    for (const bool computed : {false, true}) {
+        const fs::path view = make_writable_view(folder.path() / (computed ? "a" : "b"), home,
+                                                 {true, {"passwords.txt", "scene.pov"}, computed},
+                                                 {home / "scene.pov"});
+        EXPECT_TRUE(fs::is_symlink(view / "passwords.txt"));
+        EXPECT_FALSE(fs::is_symlink(view / "scene.pov"));
+    }
 }
 
 }  // namespace

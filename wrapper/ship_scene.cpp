@@ -2,7 +2,9 @@
 
 #include "event_loop.h"
 #include "failure.h"
+#include "fingerprint.h"
 #include "interrupt.h"
+#include "journal.h"
 #include "message_fields.h"
 
 #include <fmt/format.h>
@@ -147,6 +149,13 @@ void require_absolute(const Packing& packing, const SceneView& ours, const Place
     }
 }
 
+// What is sent is compared byte by byte when it has arrived.
+SceneView read_as_a_whole(SceneView view) {
+    for (auto& [file, seen] : view.files)
+        if (!seen.empty() && !is_of_whole_file(seen)) seen = sha1_of_file(file);
+    return view;
+}
+
 }  // namespace
 
 Shipping ship_scene(const ShipRequest& request, Transport& transport) {
@@ -170,7 +179,8 @@ Shipping ship_scene(const ShipRequest& request, Transport& transport) {
         throw Failure(Exit::file,
                       fmt::format("host {} {}: leave --ship off away, and it is sent",
                                   places.front().host, difference(ours, places.front().view)));
-    const Packing packing = pack_scene(request.scene, request.arguments, ours, request.may_go);
+    const Packing packing =
+        pack_scene(request.scene, request.arguments, read_as_a_whole(ours), request.may_go);
     for (const Place& place : places) require_absolute(packing, ours, place);
 
     Talk talk(transport, places, request.patience_seconds);

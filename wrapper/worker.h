@@ -73,6 +73,7 @@ class Worker {
     enum class State { busy, idle, over };
 
     void take_job(const nlohmann::json& head);
+    void confine_launches(std::optional<SceneCopy> copy);
     void take_scene(const Message& message);
     void start(const Message& message);
     PreparedLaunch launch(const Section& section, int attempt);
@@ -92,6 +93,7 @@ class Worker {
     std::filesystem::path scratch_;
     Confinement confinement_;
     Confinement launch_confinement_;  // of the job: the same, or in a copy of the scene
+    std::optional<SceneCopy> copy_;   // that it is in
     JobCommand job_;
     ImageSize image_;
     int jobs_ = 0;  // so far

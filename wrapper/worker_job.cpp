@@ -3,6 +3,8 @@
 #include "worker.h"
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -34,9 +36,9 @@ void Worker::take_job(const nlohmann::json& head) {
     job.radiosity_cache = cache_.file();
     job_ = std::move(job);
     const std::filesystem::path root = copy;
-    launch_confinement_ =
-        copy.empty() ? confinement_
-                     : confinement_.in_copy({root, root / folder, root / ini, job_.user_arguments});
+    std::optional<SceneCopy> of_scene;
+    if (!copy.empty()) of_scene = {root, root / folder, root / ini, job_.user_arguments};
+    confine_launches(std::move(of_scene));
 }
 
 }  // namespace mpipov

@@ -30,4 +30,13 @@ void Worker::take_scene(const Message& message) {
                          {}});
 }
 
+// A copy stays as it is for all jobs of a run: its text is looked through once.
+void Worker::confine_launches(std::optional<SceneCopy> copy) {
+    if (!copy)
+        launch_confinement_ = confinement_;
+    else if (copy_ != copy)
+        launch_confinement_ = confinement_.in_copy(*copy);
+    copy_ = std::move(copy);
+}
+
 }  // namespace mpipov
