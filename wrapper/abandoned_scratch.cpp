@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view prefix = "mpipov-";
 constexpr std::size_t random_letters = 6;  // mkdtemp()'s
-constexpr mode_t marked_mode = S_IRWXU | S_ISVTX;
+constexpr mode_t marked_mode = S_IRWXU | S_ISUID;
 constexpr long xfs_magic = 0x58465342;  // not in linux/magic.h
 
 bool is_of_this_machine(int folder) {

@@ -11,7 +11,7 @@ namespace mpipov {
 // A name that ScratchFolder gives: "mpipov-PURPOSE.XXXXXX".
 bool is_scratch_name(const std::string& name);
 
-// Marks the folder as ScratchFolder's (its sticky bit, which a private folder has no use for and
+// Marks the folder as ScratchFolder's (its set-user-ID bit, which means nothing to a folder and
 // nobody else sets) and as in use until the descriptor is closed, which the kernel does at the end
 // of the process however it ends. None where the file system knows no locks: then it is never
 // removed here.

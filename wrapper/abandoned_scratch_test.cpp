@@ -18,7 +18,7 @@ class AbandonedScratch : public testing::Test {
         const fs::path folder = base_.path() / name;
         fs::create_directories(folder / "launch");
         std::ofstream(folder / "launch" / "section.png") << "x";
-        fs::permissions(folder, fs::perms::owner_all | fs::perms::sticky_bit);
+        fs::permissions(folder, fs::perms::owner_all | fs::perms::set_uid);
         return folder;
     }
     const fs::path& base() const { return base_.path(); }

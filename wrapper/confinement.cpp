@@ -237,18 +237,18 @@ std::string Confinement::way_out(std::string_view error) const {
 }
 
 std::string Confinement::way_to_read(const std::string& name) const {
-    for (const fs::path& folder : searched_) {
-        const fs::path file = (folder / name).lexically_normal();
-        std::error_code ignored;
-        if (!fs::exists(file, ignored) || may_read(file)) continue;
-        const fs::path real = fs::weakly_canonical(file, ignored);
-        const std::string refused =
-            fmt::format(" ('{}' may not be read by a scene: ", file.string());
-        if (is_a_scenes_file(real) && may_be_proposed(real.parent_path(), home_))
-            return refused + fmt::format("allow its folder with --allow-read '{}')",
-                                         real.parent_path().string());
-        return refused + "if you trust the scene with it, see --allow-read)";
-    }
+    std::error_code ignored;
+    for (const fs::path& folder : searched_)
+        for (const fs::path& file : files_tried_for(folder / name)) {
+            if (!fs::exists(file, ignored) || may_read(file)) continue;
+            const fs::path real = fs::weakly_canonical(file, ignored);
+            const std::string refused =
+                fmt::format(" ('{}' may not be read by a scene: ", file.string());
+            if (is_a_scenes_file(real) && may_be_proposed(real.parent_path(), home_))
+                return refused + fmt::format("allow its folder with --allow-read '{}')",
+                                             real.parent_path().string());
+            return refused + "if you trust the scene with it, see --allow-read)";
+        }
     return {};
 }
 

@@ -108,6 +108,9 @@ TEST_F(ConfinementTest, SaysWhatMayBeAllowed) {
     const Confinement it = confinement();
     EXPECT_THAT(it.way_out(not_found("../other/tile.png")),
                 HasSubstr("--allow-read '" + at("other").string() + "'"));
+    EXPECT_THAT(it.way_out(not_found("../other/tile")),
+                AllOf(HasSubstr("tile.png"), HasSubstr("--allow-read '" + at("other").string())))
+        << "POV-Ray appends an extension";
     EXPECT_THAT(it.way_out(not_found("../other/none.png")), IsEmpty());
     EXPECT_THAT(it.way_out(not_found("none.png")), IsEmpty());
     EXPECT_THAT(it.way_out(not_written("../other/a.txt")),

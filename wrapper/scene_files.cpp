@@ -196,16 +196,8 @@ class Search {
     void look_for(const std::string& name) {
         if (name.empty()) return;
         absolute_name_ = in_text_ && fs::path(name).is_absolute();
-        const bool bare = !fs::path(name).has_extension();
-        for (const fs::path& folder : folders_) {
-            const fs::path file = (folder / name).lexically_normal();
-            take(file);
-            if (!bare) continue;
-            for (const char* extension : extensions) {
-                take(file.string() + extension);
-                take(file.string() + upper(extension));
-            }
-        }
+        for (const fs::path& folder : folders_)
+            for (const fs::path& file : files_tried_for(folder / name)) take(file);
     }
 
     void take(const fs::path& file) {
@@ -280,6 +272,17 @@ std::vector<std::filesystem::path> scene_files(const SceneRequest& request) {
 
 SceneNames scene_names(const SceneRequest& request) {
     return Search(request).all_names();
+}
+
+std::vector<fs::path> files_tried_for(const fs::path& name) {
+    std::vector<fs::path> files{name.lexically_normal()};
+    if (name.has_extension()) return files;
+    const std::string bare = files.front().string();
+    for (const char* extension : extensions) {
+        files.emplace_back(bare + extension);
+        files.emplace_back(bare + upper(extension));
+    }
+    return files;
 }
 
 bool is_povrays_own(const std::filesystem::path& file) {

@@ -50,6 +50,10 @@ struct SceneNames {
 };
 SceneNames scene_names(const SceneRequest& request);
 
+// The files that POV-Ray may take for a name: itself, and where it has no extension, with each of
+// those that POV-Ray appends for any kind of file.
+std::vector<std::filesystem::path> files_tried_for(const std::filesystem::path& name);
+
 // .../share/povray-3.7/...: POV-Ray's own folders, for which its version stands. A user's folder
 // may be called povray-3.7 too.
 bool is_povrays_own(const std::filesystem::path& file);
