@@ -6,16 +6,15 @@ test run.
 
 import itertools
 import json
-import os
 import re
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 from program_runs import Skip
+from scene_list import EXAMPLES
 
 CASES = json.loads(Path(__file__).with_name("exactness_cases.json").read_text())
-EXAMPLES = Path(os.environ.get("MPIPOV_EXAMPLES", "/usr/share/doc/povray/examples"))
 BLOCK = 32  # edge of POV-Ray's render blocks: aligned sections are made of them
 CASE_NAME = re.compile(r"(static|dynamic)\.np(\d+)\.(columns|rows|tiles)\."
                        r"(aligned|halo|plain)\.(off|AM1|AM2)")

@@ -22,7 +22,7 @@ from page_script import page_script
 from program_runs import (ROOT, Skip, fresh_folder, programs_of, report,
                           require_success, run)
 from radiosity_page import page, seams_show
-from seams_survey import EXAMPLES
+from scene_list import EXAMPLES
 from simulation_check import simulation
 
 SHARING = ("independent", "shared", "shared:2", "joined", "joined:3")

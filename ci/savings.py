@@ -28,7 +28,8 @@ from program_runs import (ROOT, Skip, TestFailure, fresh_folder, programs_of,
                           report, require_success, run)
 from savings_page import page
 from scene_list import all_scenes
-from seams_survey import EXAMPLES, OPTIONS
+from scene_list import EXAMPLES
+from seams_survey import OPTIONS
 
 WIDTH, HEIGHT = 224, 144
 CACHE_SCALE = 4  # a cache of radiosity is made at a quarter of the size

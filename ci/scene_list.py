@@ -1,6 +1,8 @@
-"""The scenes of our own, as scenes.json and hard.json list them; for the scripts beside this file."""
+"""The scenes of our own, as scenes.json and hard.json list them, and where Debian's examples are; for
+the scripts beside this file."""
 
 import json
+import os
 import re
 import sys
 from dataclasses import dataclass
@@ -9,6 +11,8 @@ from pathlib import Path
 from program_runs import ROOT
 
 FOLDER = ROOT / "scenes"
+# Of the package povray-examples.
+EXAMPLES = Path(os.environ.get("MPIPOV_EXAMPLES", "/usr/share/doc/povray/examples"))
 
 
 @dataclass(frozen=True)

@@ -23,9 +23,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from program_runs import (ROOT, Skip, argument_parser, fresh_folder, programs_of, report)
+from scene_list import EXAMPLES
 from seams_survey_page import page
 
-EXAMPLES = Path(os.environ.get("MPIPOV_EXAMPLES", "/usr/share/doc/povray/examples"))
 SIZE = (224, 144)
 OPTIONS = ["+A0.1", "+AM1"]
 SEAMS = "plain,aligned,halo:1,halo:2,halo:4"

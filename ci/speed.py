@@ -19,7 +19,7 @@ from pathlib import Path
 from page_script import page_script
 from program_runs import (ROOT, Skip, fresh_folder, programs_of, report,
                           require_success)
-from seams_survey import EXAMPLES
+from scene_list import EXAMPLES
 from simulation_check import arguments_of, simulate
 from speed_page import missed, page
 
