@@ -127,7 +127,7 @@ void check_bounds_of_mpipov2(const PlanRequest& request, int ranks, int width) {
 
 // How many sections, and launches of how many threads.
 Choice choose_sections(const PlanRequest& request, const GridRequest& grid, const CostModel& cost,
-                       const Cores& cores, bool pinned, bool radiosity) {
+                       const Cores& cores, bool pinned, const ProbeResult& probe) {
     const long long most = most_sections(grid, request.shape.value_or(Shape::tiles));
     // With a halo a launch renders its section as one block, and threads share whole blocks.
     const bool one_thread = grid.seams == Seams::halo;
@@ -138,8 +138,9 @@ Choice choose_sections(const PlanRequest& request, const GridRequest& grid, cons
         return {*request.sections, threads, 0};
     }
     if (pinned) {
-        const double wanted = static_cast<double>(grid.region.area()) /
-                              (radiosity ? pinned_radiosity_pixels : pinned_section_pixels);
+        const double wanted =
+            static_cast<double>(grid.region.area()) /
+            (probe.report.radiosity ? pinned_radiosity_pixels : pinned_section_pixels);
         return {clamp_to(std::llround(wanted), std::min<long long>(fewest_pinned, most),
                          std::min<long long>(most_pinned, most)),
                 threads, 0};
@@ -154,8 +155,9 @@ Choice choose_sections(const PlanRequest& request, const GridRequest& grid, cons
     }
     if (request.schedule == Policy::static_) return {clamp_to(lanes, 1, most), threads, 0};
     Choice choice = cheapest(cost, lanes, threads, most);
-    if (!request.threads && !one_thread) {
-        // Parse and photons are paid once a launch: fewer launches of more threads.
+    // Photons of several threads are not the same ones twice (docs/povray.md).
+    if (!request.threads && !one_thread && !probe.report.photons) {
+        // The scene is parsed once a launch: fewer launches of more threads.
         for (const Cores& with : {cores, pooled_cores(request)}) {
             if (with.most_of_a_rank < 2) continue;
             Choice threaded = cheapest(cost, with.ranks, with.most_of_a_rank, most);
@@ -237,14 +239,16 @@ Plan make_plan(const PlanRequest& request, const ProbeResult& given) {
     grid.halo = grid.seams == Seams::halo ? request.halo : 0;
 
     Cores cores = count_cores(request.slots);
-    const Choice choice =
-        choose_sections(request, grid, cost, cores, pinned, probe.report.radiosity);
+    const Choice choice = choose_sections(request, grid, cost, cores, pinned, probe);
     if (choice.pooled) cores = pooled_cores(request);
     plan.slots = cores.slots;
     if (pinned && choice.threads > 1)
         plan.notes.push_back(
             "the scene depends on the order of rendering: with more than one thread a launch, "
             "no two runs are alike");
+    else if (probe.report.photons && choice.threads > 1)
+        plan.notes.push_back(
+            "the scene has photons: with more than one thread a launch, no two runs are alike");
     if (request.threads.value_or(1) > choice.threads)
         plan.notes.push_back("with halo seams a launch has one thread: --threads does nothing");
 

@@ -518,6 +518,22 @@ TEST(ScenePlan, AnOrderDependentSceneIsNotRenderedByThreads) {
     EXPECT_THAT(plan.slots, testing::ElementsAre(1, 1));
 }
 
+TEST(ScenePlan, PhotonsAreShotByOneThread) {
+    ProbeResult probe = scene(640, 480, 30);
+    probe.report.photons = true;
+    probe.report.photon_cpu = 100;  // would be paid once by one launch of all threads
+    PlanRequest request = ranks({8});
+    request.early_threads = 8;
+    const Plan plan = make_plan(request, probe);
+    EXPECT_EQ(plan.record.threads, 1);
+    EXPECT_FALSE(plan.takes_early);
+    EXPECT_THAT(plan.notes, IsEmpty());
+    request.threads = 4;
+    const Plan asked = make_plan(request, probe);
+    EXPECT_EQ(asked.record.threads, 4);
+    EXPECT_THAT(asked.notes, testing::Contains(HasSubstr("photons")));
+}
+
 TEST(ScenePlan, TakesTheEarlyLaunchWhereItIsThePlan) {
     PlanRequest request;
     request.slots = {2};
