@@ -48,6 +48,11 @@ def cases():
         "validate_noise_commands": Case(PICTURE, ["scene.ini", *SMALL[1:]], code=None, validate=NOISE, files={
             "work/scene.ini": "Input_File_Name=scene.pov\nPre_Scene_Command=touch {home}/ran\n"
                               "Pre_Frame_Command=touch {home}/ran\n"}),
+        "validate_escapes": Case('#error concat(chr(27), "]0;title", chr(7))\n' + PICTURE, SMALL,
+                                 says="^[^\x1b\x07]*title[^\x1b\x07]*$", validate=NOISE),
+        "validate_escapes_in_a_render": Case(
+            '#if (image_width > 320) #error concat(chr(27), "]0;title", chr(7)) #end\n' + PICTURE, LARGE,
+            says="^[^\x1b\x07]*title[^\x1b\x07]*$", validate=NOISE),
         "validate_eat_memory": Case("#declare A = array[200000000];\n" + PICTURE, SMALL, says="--memory-limit",
                                     validate=NOISE, more=["--memory-limit", "300M"]),
     }

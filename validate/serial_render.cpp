@@ -4,6 +4,7 @@
 #include "image_source.h"
 #include "launch_failure.h"
 #include "povray_command.h"
+#include "printable.h"
 #include "run_child.h"
 #include "worker.h"
 
@@ -70,7 +71,7 @@ SerialRender SerialRenderer::render(const std::string& name, const std::vector<s
     if (result.exit_code == 127) throw Failure(Exit::scene, povray_not_found(povray_));
     if (result.exit_code != 0)
         throw Failure(is_option_error(output) ? Exit::usage : Exit::scene,
-                      describe_failure(result, output, confinement_));
+                      printable(describe_failure(result, output, confinement_)));
     render.wall_seconds = result.wall_seconds;
     render.cpu_seconds = result.cpu_seconds;
     render.report = parse_report(output);

@@ -6,6 +6,7 @@
 #include "launch_failure.h"
 #include "povray_command.h"
 #include "povray_text.h"
+#include "printable.h"
 #include "probe.h"
 #include "program_files.h"
 #include "result_file.h"
@@ -46,7 +47,7 @@ std::optional<Failure> failure_of(const SpeedupVariant& variant, const SpeedupTo
         return Failure(Exit::scene, variant.kind == Kind::bands ? last_line(output)
                                                                 : povray_not_found(tools.povray));
     return Failure(is_option_error(output) ? Exit::usage : Exit::scene,
-                   describe_failure(result, output, confinement));
+                   printable(describe_failure(result, output, confinement)));
 }
 
 class SpeedupRun {
