@@ -30,6 +30,7 @@ class Case:
     environment: dict = field(default_factory=dict)
     programs: dict = field(default_factory=dict)  # scripts; of no text: a copy of POV-Ray
     pipes: list = field(default_factory=list)
+    validate: list = field(default_factory=list)  # subcommand and options: mpipov-validate, not mpipov
 
 
 READ = "may not be read by a scene"

@@ -4,6 +4,7 @@
 #include "interrupt.h"
 #include "json_input.h"
 #include "noise_command.h"
+#include "printable.h"
 #include "report_command.h"
 #include "seams_command.h"
 #include "simulate_command.h"
@@ -62,10 +63,12 @@ int main(int argc, char** argv) {
         mpipov::print_result("");  // what was printed until here must have arrived
         return code;
     } catch (const mpipov::Failure& failure) {
-        fmt::print(stderr, "mpipov-validate: {}\n", mpipov::plain_words(failure.what()));
+        fmt::print(stderr, "mpipov-validate: {}\n",
+                   mpipov::printable(mpipov::plain_words(failure.what())));
         return finish(failure.code());
     } catch (const std::exception& error) {
-        fmt::print(stderr, "mpipov-validate: {}\n", mpipov::plain_words(error.what()));
+        fmt::print(stderr, "mpipov-validate: {}\n",
+                   mpipov::printable(mpipov::plain_words(error.what())));
         return finish(Exit::file);
     }
 }

@@ -23,8 +23,9 @@ std::optional<std::string> text_of(const fs::path& file) {
 
 class Copies {
   public:
-    Copies(const std::vector<fs::path>& library_paths, fs::path folder)
-        : folder_(std::move(folder)) {
+    Copies(const std::vector<fs::path>& library_paths, fs::path folder,
+           const std::function<bool(const fs::path&)>& may_read)
+        : folder_(std::move(folder)), may_read_(may_read) {
         searched_.emplace_back();  // of the run
         searched_.insert(searched_.end(), library_paths.begin(), library_paths.end());
     }
@@ -48,7 +49,7 @@ class Copies {
             for (const char* extension : extensions) {
                 const fs::path file = folder / (name + extension);
                 std::error_code error;
-                if (fs::is_regular_file(file, error)) return file;
+                if (fs::is_regular_file(file, error) && may_read_(file)) return file;
             }
         return {};
     }
@@ -89,6 +90,7 @@ class Copies {
     }
 
     fs::path folder_;
+    const std::function<bool(const fs::path&)>& may_read_;
     std::vector<fs::path> searched_;
     std::map<std::string, std::string> copies_;  // by the name that includes them
     MovableScene result_;
@@ -97,8 +99,9 @@ class Copies {
 }  // namespace
 
 MovableScene make_movable(const std::string& scene, const std::vector<fs::path>& library_paths,
-                          const fs::path& folder) {
-    return Copies(library_paths, folder).make(scene);
+                          const fs::path& folder,
+                          const std::function<bool(const fs::path&)>& may_read) {
+    return Copies(library_paths, folder, may_read).make(scene);
 }
 
 }  // namespace mpipov

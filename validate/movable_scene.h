@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,13 @@ struct MovableScene {
 
 // `scene` as POV-Ray was given it; what it includes is looked for as POV-Ray does: in the current
 // folder, then in `library_paths` in their order. Of files without a camera statement, and without
-// one in what they include, no copy is made. Names that the scene computes are not seen. Throws
+// one in what they include, no copy is made, nor of those that `may_read` says a scene may not
+// read. Names that the scene computes are not seen. Throws
 // Failure(Exit::scene) where the scene cannot be read, Failure(Exit::file) where `folder` cannot be
 // written.
 MovableScene make_movable(const std::string& scene,
                           const std::vector<std::filesystem::path>& library_paths,
-                          const std::filesystem::path& folder);
+                          const std::filesystem::path& folder,
+                          const std::function<bool(const std::filesystem::path&)>& may_read);
 
 }  // namespace mpipov

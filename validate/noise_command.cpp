@@ -24,10 +24,12 @@ using nlohmann::json;
 struct NoiseOptions {
     std::string out, json, povray = "povray";
     int renders = default_noise_renders;
+    SceneRules rules;
 };
 
 Exit run_noise(const CLI::App& app, const NoiseOptions& options) {
-    SerialRequest request{povray_arguments(app), options.renders, options.povray, false};
+    SerialRequest request{povray_arguments(app), options.renders, options.povray, false,
+                          options.rules};
     // Kept, it is for `seams --serial`, which may ask for halo.
     request.one_block = !options.out.empty();
     require_other_file("--json", options.json == "-" ? "" : options.json,
@@ -72,6 +74,7 @@ Command add_noise_command(CLI::App& program) {
     app->add_option("--json", options->json, "write the results as JSON; - is standard output")
         ->type_name("FILE");
     app->add_option("--povray", options->povray, "which POV-Ray to run")->capture_default_str();
+    add_scene_rules(*app, options->rules);
     app->footer(
         "Exit code: 0 ok, 2 usage, 3 the scene or POV-Ray, 4 a file cannot be read or written, 5 "
         "interrupted.");

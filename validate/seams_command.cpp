@@ -22,6 +22,7 @@ struct SeamsOptions {
                              radiosity = "auto", povray = "povray", mpiexec = "mpiexec";
     int renders = default_noise_renders;
     bool conditioning = true;
+    SceneRules rules;
 };
 
 const std::vector<Shape> shapes{Shape::columns, Shape::rows, Shape::tiles};
@@ -58,6 +59,7 @@ Exit run(const CLI::App& app, const SeamsOptions& options) {
     request.conditioning = options.conditioning;
     request.serial = options.serial;
     request.povray = options.povray;
+    request.rules = options.rules;
     request.mpiexec = options.mpiexec;
     request.folder = make_folder(options.out);
     SeamsReport report;
@@ -105,6 +107,7 @@ Command add_seams_command(CLI::App& program) {
                   "on");
     app->add_option("--povray", options->povray, "which POV-Ray to run")->capture_default_str();
     app->add_option("--mpiexec", options->mpiexec, "which mpiexec to run")->capture_default_str();
+    add_scene_rules(*app, options->rules);
     app->footer(
         "Exit code: 0 all is as promised or within noise, 1 something is not, 2 usage, 3 the scene "
         "or POV-Ray, 4 a file cannot be read or written, 5 interrupted.");

@@ -17,6 +17,7 @@ void SeamsConditioning::measure(SeamsReport& report) {
     StabilityRequest request;
     request.arguments = arguments_;
     request.povray = povray_;
+    request.rules = rules_;
     request.folder = folder_;
     request.reference = serial.reference();
     request.full_map = true;

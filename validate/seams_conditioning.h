@@ -2,6 +2,7 @@
 #pragma once
 
 #include "answer_map.h"
+#include "scene_rules.h"
 #include "seams_report.h"
 
 #include <filesystem>
@@ -14,10 +15,11 @@ namespace mpipov {
 class SeamsConditioning {
   public:
     // `folder`: where the renders from moved cameras go.
-    SeamsConditioning(std::vector<std::string> arguments, std::string povray,
+    SeamsConditioning(std::vector<std::string> arguments, std::string povray, SceneRules rules,
                       std::filesystem::path folder)
         : arguments_(std::move(arguments)),
           povray_(std::move(povray)),
+          rules_(std::move(rules)),
           folder_(std::move(folder)) {}
 
     // Of a case that is not as it should be, and was compared: where the scene is ill-conditioned
@@ -31,6 +33,7 @@ class SeamsConditioning {
 
     std::vector<std::string> arguments_;
     std::string povray_;
+    SceneRules rules_;
     std::filesystem::path folder_;
     std::optional<AnswerMap> map_;
 };

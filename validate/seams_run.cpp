@@ -27,7 +27,8 @@ class SeamsRun {
           report_(report),
           file_(request.folder / "seams.json", has_cases),
           stage_(request.folder),
-          conditioning_(request.arguments, request.povray, request.folder / "conditioning") {}
+          conditioning_(request.arguments, request.povray, request.rules,
+                        request.folder / "conditioning") {}
 
     Exit run() {
         measure_into(file_, report_, [&] {
@@ -50,7 +51,8 @@ class SeamsRun {
     void prepare() {
         const auto halo = [](const SeamKind& kind) { return kind.seams == Seams::halo; };
         const SerialRequest wanted{request_.arguments, request_.renders, request_.povray,
-                                   std::any_of(request_.seams.begin(), request_.seams.end(), halo)};
+                                   std::any_of(request_.seams.begin(), request_.seams.end(), halo),
+                                   request_.rules};
         if (request_.serial.empty()) {
             report_.serial = render_serial_set(wanted, stage_.path());
         } else {
@@ -179,7 +181,8 @@ class SeamsRun {
                       request_.povray,
                       "--progress",
                       "none"};
-        child.argv.insert(child.argv.end(), request_.arguments.begin(), request_.arguments.end());
+        for (const auto* more : {&request_.rules.given, &request_.arguments})
+            child.argv.insert(child.argv.end(), more->begin(), more->end());
         child.argv.push_back(fmt::format("+O{}", (folder / "image").string()));
         std::string output;
         const ChildResult result = run_child(child, &output);

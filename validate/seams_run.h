@@ -34,6 +34,7 @@ struct SeamsRequest {
     std::filesystem::path serial;  // of `noise --out`; empty: serial renders are made
     std::string povray = "povray", mpiexec = "mpiexec";
     std::filesystem::path mpipov;  // the program
+    SceneRules rules = {};
 };
 
 // Writes seams.json into the folder after every case, whatever fails. Exit::ok or Exit::differ; of

@@ -2,7 +2,9 @@
 
 #include "failure.h"
 #include "image_source.h"
+#include "launch_failure.h"
 #include "povray_command.h"
+#include "printable.h"
 #include "run_child.h"
 #include "worker.h"
 
@@ -40,10 +42,13 @@ void move_file(const fs::path& from, const fs::path& to) {
 }  // namespace
 
 SerialRenderer::SerialRenderer(std::string povray, const std::vector<std::string>& user_arguments,
-                               fs::path scratch)
+                               fs::path scratch, const SceneRules& rules,
+                               std::vector<fs::path> reads)
     : povray_(std::move(povray)),
       arguments_(quote_arguments(user_arguments)),
-      scratch_(std::move(scratch)) {}
+      scratch_(std::move(scratch)),
+      reads_(std::move(reads)),
+      confinement_(confinement_by(rules, povray_, user_arguments, scratch_)) {}
 
 SerialRender SerialRenderer::render(const std::string& name, const std::vector<std::string>& more,
                                     const fs::path& folder, int threads) const {
@@ -57,17 +62,16 @@ SerialRender SerialRenderer::render(const std::string& name, const std::vector<s
     fs::remove_all(place, error);
     fs::create_directories(place, error);
 
-    ChildRequest request;
-    request.argv = argv;
+    LaunchNeeds needs{argv, place, {}, threads, {}, reads_};
     for (const char* quiet : {"-D", "-P", "-C", "+V", "Create_Ini=", "All_Console=on"})
-        request.argv.emplace_back(quiet);
-    request.argv.push_back(fmt::format("+O\"{}\"", (place / "image").string()));
+        needs.argv.emplace_back(quiet);
+    needs.argv.push_back(fmt::format("+O\"{}\"", (place / "image").string()));
     std::string output;
-    const ChildResult result = run_child(request, &output);
+    const ChildResult result = run_child(confinement_.request(std::move(needs)), &output);
     if (result.exit_code == 127) throw Failure(Exit::scene, povray_not_found(povray_));
     if (result.exit_code != 0)
         throw Failure(is_option_error(output) ? Exit::usage : Exit::scene,
-                      fmt::format("POV-Ray: {}", parse_error(output)));
+                      printable(describe_failure(result, output, confinement_)));
     render.wall_seconds = result.wall_seconds;
     render.cpu_seconds = result.cpu_seconds;
     render.report = parse_report(output);

@@ -3,6 +3,7 @@
 
 #include "noise_variants.h"
 #include "povray_text.h"
+#include "scene_rules.h"
 
 #include <filesystem>
 #include <functional>
@@ -22,10 +23,12 @@ struct SerialRender {
 
 class SerialRenderer {
   public:
-    // `user_arguments` as the user gave them. `scratch`: POV-Ray may write only there and into the
-    // current folder.
+    // `user_arguments` as the user gave them. `scratch`: below it each launch has the folder that
+    // it may write into. `reads`: what a scene may read besides, once it is there. Throws Failure
+    // as confinement_by().
     SerialRenderer(std::string povray, const std::vector<std::string>& user_arguments,
-                   std::filesystem::path scratch);
+                   std::filesystem::path scratch, const SceneRules& rules,
+                   std::vector<std::filesystem::path> reads = {});
 
     // `more` comes after the user's arguments. The image is put into `folder` as `name`
     // with POV-Ray's extension. Throws Failure: usage or scene with POV-Ray's words, file,
@@ -33,10 +36,14 @@ class SerialRenderer {
     SerialRender render(const std::string& name, const std::vector<std::string>& more,
                         const std::filesystem::path& folder, int threads = 1) const;
 
+    const Confinement& confinement() const { return confinement_; }
+
   private:
     std::string povray_;
     std::vector<std::string> arguments_;
     std::filesystem::path scratch_;
+    std::vector<std::filesystem::path> reads_;
+    Confinement confinement_;
 };
 
 struct NoiseRenders {

@@ -73,11 +73,15 @@ bool is_exact(const NoiseReport& noise) {
                            noise.floor->noisy * one_in <= noise.floor->samples);
 }
 
-SceneAsked ask_scene(const std::vector<std::string>& arguments, const std::string& povray) {
-    const ScratchFolder scratch("probe");
+SceneAsked ask_scene(const std::vector<std::string>& arguments, const std::string& povray,
+                     const SceneRules& rules) {
+    const ScratchFolder scratch("probe"), own("own");
     SceneAsked scene;
     scene.povray_version = povray_version(povray);
-    const Probe probe = run_probe({povray, quote_arguments(arguments), scratch.path(), {}});
+    const Confinement confinement = confinement_by(rules, povray, arguments, own.path());
+    tell_note(confinement);
+    const Probe probe =
+        run_probe({povray, quote_arguments(arguments), scratch.path(), {}, {}, confinement});
     const ImageOptions& image = probe.result.image;
     scene.file = image.input_file;
     scene.name = fs::path(image.input_file).stem().string();
@@ -93,8 +97,8 @@ SceneAsked ask_scene(const std::vector<std::string>& arguments, const std::strin
 SerialSet render_serial_set(const SerialRequest& request, const fs::path& folder) {
     const ScratchFolder scratch("serial");
     SerialSet set;
-    set.scene = ask_scene(request.arguments, request.povray);
-    const SerialRenderer renderer(request.povray, request.arguments, scratch.path());
+    set.scene = ask_scene(request.arguments, request.povray, request.rules);
+    const SerialRenderer renderer(request.povray, request.arguments, scratch.path(), request.rules);
     const auto add_reference = [&](const std::string& name, const std::vector<std::string>& more) {
         fmt::print(stderr, "rendering the serial reference: {}\n", name);
         set.references[name] = renderer.render("serial-" + name, more, folder);
@@ -142,7 +146,7 @@ SerialSet read_serial_set(const SerialRequest& request, const fs::path& folder) 
         for (const ListedRender& render : manifest.renders)
             set.noise.renders.push_back({as_render(render, folder), {}});
 
-        set.scene = ask_scene(request.arguments, request.povray);
+        set.scene = ask_scene(request.arguments, request.povray, request.rules);
         const std::string what = what_changed(manifest.identity, set.scene.identity);
         require_none(what.empty() ? "" : fmt::format("of another state of the scene: {}", what));
         compare_noise(set, {});

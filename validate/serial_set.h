@@ -53,6 +53,7 @@ struct SerialRequest {
     int renders = default_noise_renders;  // wanted, beside the reference
     std::string povray = "povray";
     bool one_block = false;  // the second reference, where antialiasing sees blocks
+    SceneRules rules = {};
 };
 
 // NOLINTNEXTLINE(bugprone-exception-escape): moving JSON only asserts
@@ -80,8 +81,10 @@ nlohmann::json to_json(const NoiseReport& noise, const std::filesystem::path& fo
 nlohmann::json to_json(const SerialSet& set, const SerialRequest& request,
                        const std::filesystem::path& folder);
 
-// `arguments` as the user gave them. Throws Failure as run_probe.
-SceneAsked ask_scene(const std::vector<std::string>& arguments, const std::string& povray);
+// `arguments` as the user gave them. Tells what `rules` mean for the scene where the user should
+// know. Throws Failure as run_probe and confinement_by().
+SceneAsked ask_scene(const std::vector<std::string>& arguments, const std::string& povray,
+                     const SceneRules& rules);
 
 // What an earlier render_serial_set left in `folder`. Asks POV-Ray about the scene again, and
 // throws Failure(Exit::usage) where it is another now (any file of it, the settings, POV-Ray

@@ -21,6 +21,7 @@ struct SpeedupOptions {
                 povray = "povray", mpiexec = "mpiexec";
     int repeat = 3;
     bool dedicated = false;
+    SceneRules rules;
 };
 
 SpeedupChoice choice_of(const SpeedupOptions& options) {
@@ -41,8 +42,12 @@ Exit run(const CLI::App& app, const SpeedupOptions& options) {
         throw Failure(
             Exit::usage,
             fmt::format("--slots: '{}' is neither auto nor a whole number from 1", options.slots));
-    request.tools = {options.povray, options.mpiexec, options.slots, shipped_file("mpipov"),
-                     shipped_file(std::filesystem::path(MPIPOV_SHARE_FROM_BIN) / "bands.sh")};
+    request.tools = {options.povray,
+                     options.mpiexec,
+                     options.slots,
+                     shipped_file("mpipov"),
+                     shipped_file(std::filesystem::path(MPIPOV_SHARE_FROM_BIN) / "bands.sh"),
+                     options.rules};
     request.folder = make_folder(options.out);
     SpeedupReport report;
     try {
@@ -90,6 +95,7 @@ Command add_speedup_command(CLI::App& program) {
         ->capture_default_str();
     app->add_option("--povray", options->povray, "which POV-Ray to run")->capture_default_str();
     app->add_option("--mpiexec", options->mpiexec, "which mpiexec to run")->capture_default_str();
+    add_scene_rules(*app, options->rules);
     app->footer(
         "speedup.json is written after every run: what was measured before an interruption stays, "
         "and \"complete\" says whether all was. A way to render that fails is told in its row and "

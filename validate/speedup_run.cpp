@@ -3,13 +3,17 @@
 #include "compare.h"
 #include "host_cpu.h"
 #include "interrupt.h"
+#include "launch_failure.h"
 #include "povray_command.h"
 #include "povray_text.h"
+#include "printable.h"
 #include "probe.h"
+#include "program_files.h"
 #include "result_file.h"
 #include "run_child.h"
 #include "run_image.h"
 #include "scratch.h"
+#include "user_settings.h"
 
 #include <fmt/format.h>
 
@@ -31,11 +35,10 @@ std::optional<double> load_average() {
 
 // Why a command failed that ended so; none where it did not.
 std::optional<Failure> failure_of(const SpeedupVariant& variant, const SpeedupTools& tools,
-                                  const ChildResult& result, const std::string& output) {
+                                  const Confinement& confinement, const ChildResult& result,
+                                  const std::string& output) {
     if (result.exit_code == 0) return {};
     if (variant.kind == Kind::mpipov) return mpipov_failure(result, output, tools.mpiexec);
-    if (result.signal)
-        return Failure(Exit::scene, fmt::format("ended by signal {}", *result.signal));
     const auto oiiotool = output.find("oiiotool ERROR");
     if (variant.kind == Kind::bands && oiiotool != std::string::npos)
         return Failure(Exit::scene,
@@ -44,13 +47,17 @@ std::optional<Failure> failure_of(const SpeedupVariant& variant, const SpeedupTo
         return Failure(Exit::scene, variant.kind == Kind::bands ? last_line(output)
                                                                 : povray_not_found(tools.povray));
     return Failure(is_option_error(output) ? Exit::usage : Exit::scene,
-                   fmt::format("POV-Ray: {}", parse_error(output)));
+                   printable(describe_failure(result, output, confinement)));
 }
 
 class SpeedupRun {
   public:
     SpeedupRun(const SpeedupRequest& request, SpeedupReport& report)
-        : request_(request), report_(report), file_(request.folder / "speedup.json", has_times) {}
+        : request_(request),
+          report_(report),
+          file_(request.folder / "speedup.json", has_times),
+          confinement_(confinement_by(request.tools.rules, request.tools.povray, request.arguments,
+                                      own_.path())) {}
 
     Exit run() {
         measure_into(file_, report_, [&] {
@@ -73,10 +80,13 @@ class SpeedupRun {
 
     void ask_scene() {
         report_.versions["povray"] = povray_version(request_.tools.povray);
+        tell_note(confinement_);
         const Probe probe = run_probe({request_.tools.povray,
                                        quote_arguments(request_.arguments),
                                        scratch_.path() / "probe",
-                                       {}});
+                                       {},
+                                       {},
+                                       confinement_});
         const ImageOptions& image = probe.result.image;
         scene_ = {request_.arguments, image.width, image.region,
                   fs::path(image.output_file).extension().string()};
@@ -124,18 +134,35 @@ class SpeedupRun {
         const fs::path record = request_.folder / (variant.name() + ".run.json");
         if (variant.kind == Kind::mpipov) fs::remove(record, error);
 
-        ChildRequest child;
         row.argv = speedup_command(variant, request_.tools, scene_, place, record);
-        child.argv = row.argv;
         std::string output;
-        const ChildResult result = run_child(child, &output);
-        if (const auto failure = failure_of(variant, request_.tools, result, output))
+        const ChildResult result = run_child(launch(variant, row.argv, place), &output);
+        if (const auto failure = failure_of(variant, request_.tools, confinement_, result, output))
             throw *failure;
         row.times.back() = result.wall_seconds;
 
         if (variant.kind == Kind::mpipov) read_record(row, record);
         look_at_image(row, place / ("image" + scene_.extension));
         fs::remove_all(place, error);
+    }
+
+    // All that is to be set up for it is, before its time begins.
+    ChildRequest launch(const SpeedupVariant& variant, const std::vector<std::string>& argv,
+                        const fs::path& place) const {
+        if (variant.kind == Kind::mpipov) {  // which confines its launches itself
+            ChildRequest child;
+            child.argv = argv;
+            return child;
+        }
+        LaunchNeeds needs{argv, place, {}, variant.ranks, {}};
+        if (variant.kind == Kind::bands) {
+            // POV-Ray inherits what the shell, xargs and oiiotool need.
+            FileAccess script = files_of_program(request_.tools.bands, home_of_user());
+            resolve_links(script);
+            needs.reads = script.read;
+            needs.executes = script.execute;
+        }
+        return confinement_.request(std::move(needs));
     }
 
     void read_record(SpeedupRow& row, const fs::path& record) {
@@ -181,7 +208,8 @@ class SpeedupRun {
     const SpeedupRequest& request_;
     SpeedupReport& report_;
     ResultFile file_;
-    const ScratchFolder scratch_{"speedup"};
+    const ScratchFolder scratch_{"speedup"}, own_{"own"};
+    const Confinement confinement_;
     SpeedupScene scene_;
     fs::path serial_image_;
     Exit failed_ = Exit::ok;  // of the first variant that failed

@@ -98,6 +98,7 @@ std::vector<std::string> speedup_command(const SpeedupVariant& variant, const Sp
                                   tools.slots};
     if (variant.dedicated) argv.emplace_back("--dedicated-coordinator");
     append(argv, {"--record", record.string(), "--povray", tools.povray, "--progress", "none"});
+    append(argv, tools.rules.given);
     append(argv, scene.arguments);
     argv.push_back(fmt::format("+O{}", base.string()));
     return argv;

@@ -1,6 +1,7 @@
 // What is measured against what: the ways to render one scene with n processors. Pure.
 #pragma once
 
+#include "scene_rules.h"
 #include "schedule.h"
 #include "section.h"
 
@@ -45,6 +46,7 @@ struct SpeedupScene {
 struct SpeedupTools {
     std::string povray = "povray", mpiexec = "mpiexec", slots = "1";
     std::filesystem::path mpipov, bands;  // programs of ours
+    SceneRules rules = {};
 };
 
 // The whole argv. The image becomes `folder`/image + extension; the record of mpipov `record`.

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 struct StabilityOptions {
     std::string out, json, povray = "povray";
     bool require_well = false;
+    SceneRules rules;
 };
 
 // Writes stability.json after every render; one that an earlier call left there stays until the
@@ -32,13 +33,14 @@ void measure(const StabilityOptions& options, StabilityReport& report, const fs:
     StabilityRequest request;
     request.arguments = report.arguments;
     request.povray = options.povray;
+    request.rules = options.rules;
     request.folder = report.folder / "images";
     request.told = [&] {
         result.replace_earlier();
         result.write(to_json(report));
     };
     measure_into(result, report, [&] {
-        report.scene = ask_scene(report.arguments, options.povray);
+        report.scene = ask_scene(report.arguments, options.povray, options.rules);
         report.versions["povray"] = report.scene->povray_version;
         const AnswerMap map = measure_stability(request, *report.scene, report.found);
         if (!report.keeps_images) return;
@@ -86,6 +88,7 @@ Command add_stability_command(CLI::App& program) {
     app->add_flag("--require-well", options->require_well,
                   "exit with 1 unless the scene is well-conditioned");
     app->add_option("--povray", options->povray, "which POV-Ray to run")->capture_default_str();
+    add_scene_rules(*app, options->rules);
     app->footer(
         "Exit code: 0 measured, whatever was found; 1 not well-conditioned, with --require-well; 2 "
         "usage, 3 the scene or POV-Ray, also where the camera cannot be moved; 4 a file cannot be "

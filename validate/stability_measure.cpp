@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array moves{1e-12, 1e-9, 1e-6};
 constexpr double control_move = 1e-3;
+constexpr const char* copies = "scene";  // of the scene's files, with a camera that moves
 constexpr std::array moves_for_map{-1e-12, 3e-12, -1e-11, 3e-11, -1e-10};
 
 class Measure {
@@ -27,11 +28,14 @@ class Measure {
         : request_(request),
           scene_(scene),
           found_(found),
-          renderer_(request.povray, request.arguments, scratch_.path()) {}
+          renderer_(request.povray, request.arguments, scratch_.path(), request.rules,
+                    {scratch_.path() / copies}) {}
 
     AnswerMap run() {
         found_.reference = request_.reference ? *request_.reference : render("as-it-is", {});
-        movable_ = make_movable(scene_.file, scene_.library_paths, scratch_.path() / "scene");
+        movable_ = make_movable(
+            scene_.file, scene_.library_paths, scratch_.path() / copies,
+            [&](const fs::path& file) { return renderer_.confinement().may_read(file); });
         found_.cameras = movable_.cameras;
         found_.way = movable_.moves_itself ? CameraWay::declared : CameraWay::scale;
         require_movable();

@@ -23,6 +23,7 @@ struct StabilityRequest {
     // answered by some of the pixels that rounding decides about, five more by nearly all.
     bool full_map = false;
     std::function<void()> told = [] {};  // after each render
+    SceneRules rules = {};
 };
 
 // `found` holds what was found until a failure. Throws Failure as SerialRenderer::render, and

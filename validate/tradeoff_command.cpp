@@ -30,6 +30,7 @@ struct TradeoffOptions {
     int ranks = 2, repeat = 3, truth_samples = 13448;
     double truth_seconds = 600;
     std::optional<double> max_error, max_seconds;
+    SceneRules rules;
 };
 
 std::vector<int> sorted_numbers(const std::string& option, const std::string& text, int most) {
@@ -85,6 +86,7 @@ Exit run(const CLI::App& app, const TradeoffOptions& options) {
     request.max_error = options.max_error;
     request.max_seconds = options.max_seconds;
     request.povray = options.povray;
+    request.rules = options.rules;
     request.mpiexec = options.mpiexec;
     request.mpipov = shipped_file("mpipov");
     request.folder = make_folder(options.out);
@@ -168,6 +170,7 @@ Command add_tradeoff_command(CLI::App& program) {
         ->capture_default_str();
     app->add_option("--povray", options->povray, "which POV-Ray to run")->capture_default_str();
     app->add_option("--mpiexec", options->mpiexec, "which mpiexec to run")->capture_default_str();
+    add_scene_rules(*app, options->rules);
     app->footer(
         "The antialiasing is swept by serial renders, the rest at the scene's own antialiasing, or "
         "+A0.3 where it has none. tradeoff.json is written after every render: the same command "

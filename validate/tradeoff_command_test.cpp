@@ -27,7 +27,7 @@ using testing::SizeIs;
 class TradeoffProgram : public ProgramTest {
   protected:
     TradeoffProgram() : ProgramTest({"tradeoff"}) {
-        // Each render of this POV-Ray leaves a line.
+        // Each render of this POV-Ray leaves a line: --allow-write.
         std::ofstream(path("counting-povray"))
             << "#!/bin/sh\necho \"$@\" >> renders\nexec povray \"$@\"\n";
         fs::permissions(path("counting-povray"), fs::perms::owner_all);
@@ -61,8 +61,8 @@ class TradeoffProgram : public ProgramTest {
     static std::vector<std::string> counted(const std::vector<std::string>& more,
                                             const char* repeat = "1") {
         std::vector<std::string> all{
-            "--sweep",  "antialiasing",      "--methods",    "1",  "--depths", "2",
-            "--povray", "./counting-povray", "--thresholds", "0.3"};
+            "--sweep",  "antialiasing",      "--methods",    "1",   "--depths",      "2",
+            "--povray", "./counting-povray", "--thresholds", "0.3", "--allow-write", "."};
         all.insert(all.end(), more.begin(), more.end());
         return arguments(all, repeat);
     }

@@ -30,7 +30,7 @@ TradeoffRenderer::TradeoffRenderer(TradeoffTools tools, std::vector<std::string>
     : tools_(std::move(tools)),
       arguments_(std::move(user_arguments)),
       scratch_(std::move(scratch)),
-      serial_(tools_.povray, arguments_, scratch_) {}
+      serial_(tools_.povray, arguments_, scratch_, tools_.rules) {}
 
 std::vector<std::string> TradeoffRenderer::argv(const TradeoffSetting& setting) const {
     if (!setting.mpipov) {
@@ -44,6 +44,7 @@ std::vector<std::string> TradeoffRenderer::argv(const TradeoffSetting& setting) 
                                   tools_.mpipov.string()};
     append(argv, setting.options);
     append(argv, {"--povray", tools_.povray, "--progress", "none"});
+    append(argv, tools_.rules.given);
     append(argv, arguments_);
     append(argv, arguments_of(setting));
     return argv;
@@ -55,6 +56,7 @@ std::vector<std::string> TradeoffRenderer::user_argv(const TradeoffSetting& sett
         argv = {tools_.mpiexec, "-n", fmt::format("{}", setting.ranks), "mpipov"};
         append(argv, setting.options);
         if (tools_.povray != "povray") append(argv, {"--povray", tools_.povray});
+        append(argv, tools_.rules.given);
         append(argv, arguments_);
     } else {
         argv = {tools_.povray};

@@ -17,6 +17,7 @@ inline const std::vector<std::string> measured_format{"+FN16", "-UA", "File_Gamm
 struct TradeoffTools {
     std::string povray = "povray", mpiexec = "mpiexec";
     std::filesystem::path mpipov;
+    SceneRules rules = {};
 };
 
 struct TradeoffRun {

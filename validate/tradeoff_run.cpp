@@ -38,11 +38,13 @@ class Sweeper {
         : request_(request),
           report_(report),
           file_(request.folder / "tradeoff.json", has_times),
-          renderer_({request.povray, request.mpiexec, request.mpipov}, request.arguments,
-                    scratch_.path()) {}
+          renderer_({request.povray, request.mpiexec, request.mpipov, request.rules},
+                    request.arguments, scratch_.path()) {}
 
     Exit run() {
-        ask_scene(request_.povray, make_scratch("probe"), report_);
+        tell_note(renderer_.serial().confinement());
+        ask_scene(request_.povray, make_scratch("probe"), renderer_.serial().confinement(),
+                  report_);
         plan();
         go_on_from_earlier();
         measure_into(file_, report_, [&] {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "failure.h"
+#include "scene_rules.h"
 #include "tradeoff_report.h"
 
 #include <filesystem>
@@ -23,6 +24,7 @@ struct TradeoffRequest {
     std::optional<double> max_seconds;  // wall
     std::string povray = "povray", mpiexec = "mpiexec";
     std::filesystem::path mpipov;
+    SceneRules rules = {};
 };
 
 // Writes tradeoff.json into the folder after every render, whatever fails; goes on from what an

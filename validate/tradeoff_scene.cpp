@@ -23,9 +23,11 @@ bool mentions_size(const fs::path& file) {
 
 }  // namespace
 
-void ask_scene(const std::string& povray, const fs::path& scratch, TradeoffReport& report) {
+void ask_scene(const std::string& povray, const fs::path& scratch, const Confinement& confinement,
+               TradeoffReport& report) {
     report.versions["povray"] = povray_version(povray);
-    const Probe probe = run_probe({povray, quote_arguments(report.arguments), scratch, {}});
+    const Probe probe =
+        run_probe({povray, quote_arguments(report.arguments), scratch, {}, {}, confinement});
     const ImageOptions& image = probe.result.image;
     report.file = image.input_file;
     report.scene = fs::path(image.input_file).stem().string();

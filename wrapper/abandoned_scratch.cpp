@@ -68,7 +68,7 @@ bool is_scratch_name(const std::string& name) {
 
 Fd hold(const std::filesystem::path& folder) {
     Fd fd = locked(folder);
-    if (fd.get() >= 0) ::fchmod(fd.get(), marked_mode);
+    if (fd.get() >= 0 && is_of_this_machine(fd.get())) ::fchmod(fd.get(), marked_mode);
     return fd;
 }
 

@@ -213,6 +213,8 @@ ChildRequest Confinement::request(LaunchNeeds needs) const {
         request.working_directory =
             make_writable_view(needs.folder / "view", searched_.front(), writes_, files_->read);
     request.files->read.insert(request.files->read.end(), needs.reads.begin(), needs.reads.end());
+    request.files->execute.insert(request.files->execute.end(), needs.executes.begin(),
+                                  needs.executes.end());
     return request;
 }
 

@@ -34,8 +34,9 @@ struct LaunchNeeds {
     int threads = 1;
     // Of the image that it writes a frame of: POV-Ray keeps a large one in a file with holes, which
     // is as long as all of it.
-    std::optional<std::uint64_t> pixels = 0;        // not known: a file may have any length
-    std::vector<std::filesystem::path> reads = {};  // besides the scene's
+    std::optional<std::uint64_t> pixels = 0;           // not known: a file may have any length
+    std::vector<std::filesystem::path> reads = {};     // besides the scene's
+    std::vector<std::filesystem::path> executes = {};  // besides POV-Ray; to read too
 };
 
 // A scene that was sent to this host.

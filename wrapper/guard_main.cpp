@@ -67,18 +67,20 @@ void restrict_files(const char* program) {
     close(ruleset);
 }
 
-bool begins_as_script(const char* file) {
-    std::array<char, 2> begin{};
+// Also one without "#!", which execvp() hands to the shell.
+bool is_no_machine_code(const char* file) {
+    constexpr std::array<char, 4> elf{'\x7f', 'E', 'L', 'F'};
+    std::array<char, 4> begin{};
     const int descriptor = access(file, X_OK) == 0 ? open(file, O_RDONLY | O_CLOEXEC) : -1;
     if (descriptor < 0) return false;
     const ssize_t count = read(descriptor, begin.data(), begin.size());
     close(descriptor);
-    return count == 2 && begin[0] == '#' && begin[1] == '!';
+    return count >= 0 && begin != elf;
 }
 
 // As execvp() finds it.
 bool is_script(const char* program) {
-    if (std::strchr(program, '/') != nullptr) return begins_as_script(program);
+    if (std::strchr(program, '/') != nullptr) return is_no_machine_code(program);
     const char* path = std::getenv("PATH");
     for (const char* folder = path == nullptr ? "/bin:/usr/bin" : path; *folder != '\0';) {
         const auto length = static_cast<int>(std::strcspn(folder, ":"));
@@ -87,7 +89,7 @@ bool is_script(const char* program) {
             std::snprintf(file.data(), file.size(), "%.*s/%s", length, folder, program);
         if (written > 0 && static_cast<std::size_t>(written) < file.size() &&
             access(file.data(), X_OK) == 0)
-            return begins_as_script(file.data());
+            return is_no_machine_code(file.data());
         folder += length;
         if (*folder == ':') ++folder;
     }

@@ -5,7 +5,9 @@
 #include "json_input.h"
 #include "sha1_digits.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -50,12 +52,26 @@ bool belongs_to_a_journal(const std::filesystem::path& file) {
 }
 
 // Nothing else is ever removed: --work-dir may name any folder.
-void remove_files(const std::filesystem::path& folder) {
+void remove_files(const std::filesystem::path& folder, std::string_view but = {}) {
     std::error_code ignored;
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-        if (belongs_to_a_journal(entry.path())) files.push_back(entry.path());
+        if (belongs_to_a_journal(entry.path()) && entry.path().filename() != but)
+            files.push_back(entry.path());
     for (const std::filesystem::path& file : files) std::filesystem::remove(file, ignored);
+}
+
+// So that no other run empties the folder, or adds to it, while this one has it; the kernel lets go
+// of it when the process ends, however it ends. Where there can be no lock, writing will say why.
+Fd lock_for_one_run(const std::filesystem::path& file, int flags) {
+    constexpr mode_t as_streams_do = 0666;
+    Fd fd(::open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, as_streams_do));
+    if (fd.get() >= 0 && ::flock(fd.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        throw Failure(Exit::usage,
+                      fmt::format("the work folder '{}' is in use by another run: wait for its "
+                                  "end, or name another one with --work-dir",
+                                  file.parent_path().string()));
+    return fd;
 }
 
 // What an interruption cut off stays a line of its own, which does not count.
@@ -167,8 +183,9 @@ void Journal::begin(const json& identity) {
                           fmt::format("the work folder '{}' holds '{}', which is not mpipov's: "
                                       "name another one with --work-dir",
                                       folder_.string(), entry.path().filename().string()));
-    remove_files(folder_);
     const std::filesystem::path file = folder_ / journal_name;
+    lock_ = lock_for_one_run(file, O_CREAT);
+    remove_files(folder_, journal_name);
     std::ofstream out(file);
     out << to_text({{"format", "mpipov-journal"},
                     {"version", format_version},
@@ -192,6 +209,7 @@ Journal Journal::open(const std::filesystem::path& folder, const json& identity)
         throw Failure(Exit::usage, fmt::format("--resume: nothing to go on from in '{}'; run "
                                                "without --resume",
                                                folder.string()));
+    Fd lock = lock_for_one_run(file, 0);
     const json stored = read_head(folder);
     if (stored.is_null())
         throw Failure(Exit::file,
@@ -203,6 +221,7 @@ Journal Journal::open(const std::filesystem::path& folder, const json& identity)
                                   "--resume",
                                   change, folder.string()));
     Journal journal(without_last_slash(folder));
+    journal.lock_ = std::move(lock);
     journal.plan_ = stored.at("plan");
     journal.folders_made_ = member<int>(stored, folders_key);
     end_last_line(folder / sections_name);

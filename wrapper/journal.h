@@ -6,6 +6,7 @@
 // waves of gathering (radiosity_sharing.h), and its SHA-1 in a last line.
 #pragma once
 
+#include "fd.h"
 #include "image_file.h"
 #include "section.h"
 
@@ -27,6 +28,7 @@ class Journal {
   public:
     // Starts a new journal in `folder`, in place of an old one. Throws Failure(Exit::file), also
     // where the folder holds anything that is not a journal's; no folder is left behind then.
+    // Failure(Exit::usage) where another run has it, as open().
     static Journal create(const std::filesystem::path& folder, const nlohmann::json& identity,
                           const nlohmann::json& plan);
     // Opens the one that an earlier run left. Throws Failure(Exit::usage) where there is none or
@@ -77,6 +79,7 @@ class Journal {
     std::vector<int> waves_kept() const;  // the last first
 
     std::filesystem::path folder_;
+    Fd lock_;  // on journal.json, for as long as this run has it
     nlohmann::json plan_;
     int folders_made_ = 0;  // the folder itself, then the one that it is in, and so on
     std::map<int, std::ofstream> open_;

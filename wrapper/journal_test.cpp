@@ -98,6 +98,30 @@ TEST_F(JournalTest, GivesBackWhatWasFinished) {
     }
 }
 
+TEST_F(JournalTest, BelongsToOneRunAtATime) {
+    const auto refusal = [&](auto&& take) -> std::string {
+        try {
+            take();
+        } catch (const Failure& failure) {
+            EXPECT_EQ(failure.code(), Exit::usage);
+            return failure.what();
+        }
+        return {};
+    };
+    {
+        Journal running = Journal::create(folder(), identity, plan);
+        add(running, 0);
+        EXPECT_THAT(refusal([&] {
+                        Journal::create(folder(), {{"scene", "other"}}, plan);
+                    }),
+                    HasSubstr("in use by another run"));
+        EXPECT_THAT(refusal([&] { Journal::open(folder(), identity); }), HasSubstr("--work-dir"));
+        add(running, 1);
+    }
+    EXPECT_THAT(ids(Journal::open(folder(), identity)), ElementsAre(0, 1));
+    EXPECT_EQ(refusal([&] { Journal::create(folder(), {{"scene", "other"}}, plan); }), "");
+}
+
 TEST_F(JournalTest, SectionsMayComeInterleaved) {
     {
         Journal journal = Journal::create(folder(), identity, plan);

@@ -7,25 +7,38 @@
 #include <csignal>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 namespace mpipov {
+namespace {
+
+bool wrote_too_much(const ChildResult& result) {
+    return result.filled_folder || result.signal == SIGXFSZ;
+}
+
+}  // namespace
 
 LaunchFailure launch_failure(const ChildProcess& child, const Confinement& confinement,
                              const LaunchPlace& place) {
     const ChildResult& result = child.result();
+    LaunchFailure failure{describe_failure(result, child.output(), confinement)};
+    const bool limited = result.timed_out || wrote_too_much(result);
+    return limited ? failure : blame_full_disk(std::move(failure), place);
+}
+
+std::string describe_failure(const ChildResult& result, std::string_view output,
+                             const Confinement& confinement) {
     if (result.timed_out)
-        return {
-            fmt::format("POV-Ray did not end within {:.6g} s (--timeout)", result.timeout_seconds)};
-    if (result.filled_folder || result.signal == SIGXFSZ)
-        return {"POV-Ray was ended because it wrote more than a launch may (--disk-limit)"};
+        return fmt::format("POV-Ray did not end within {:.6g} s (--timeout)",
+                           result.timeout_seconds);
+    if (wrote_too_much(result))
+        return "POV-Ray was ended because it wrote more than a launch may (--disk-limit)";
     if (result.signal) {
         const char* name = ::sigabbrev_np(*result.signal);
-        return blame_full_disk(
-            {fmt::format("POV-Ray was ended by signal {} (SIG{}){}", *result.signal,
-                         name != nullptr ? name : "?", confinement.way_out(child.output()))},
-            place);
+        return fmt::format("POV-Ray was ended by signal {} (SIG{}){}", *result.signal,
+                           name != nullptr ? name : "?", confinement.way_out(output));
     }
-    return blame_full_disk({describe_failure(child.output(), confinement)}, place);
+    return describe_failure(output, confinement);
 }
 
 std::string describe_failure(std::string_view output, const Confinement& confinement) {

@@ -28,6 +28,9 @@ struct LaunchPlace {
 LaunchFailure launch_failure(const ChildProcess& child, const Confinement& confinement,
                              const LaunchPlace& place);
 
+// The same but for the disk, of one that ended so and said this.
+std::string describe_failure(const ChildResult& result, std::string_view output,
+                             const Confinement& confinement);
 // Of one that said this.
 std::string describe_failure(std::string_view output, const Confinement& confinement);
 

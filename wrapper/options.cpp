@@ -178,24 +178,29 @@ std::vector<std::string> take_ours(const std::vector<std::string>& arguments,
     return ours;
 }
 
+// `apply` is called with the value, "" of a flag.
+void add_row(CLI::App& app, const Row& row, const std::function<void(const std::string&)>& apply) {
+    const std::string flag = fmt::format("--{}", row.name);
+    const auto checked = [flag, apply](const std::string& value) {
+        try {
+            apply(value);
+        } catch (const Failure& failure) {
+            throw CLI::ValidationError(flag, failure.what());
+        }
+    };
+    CLI::Option* option = row.value == nullptr
+                              ? app.add_flag_function(
+                                    flag, [checked](std::int64_t) { checked(""); }, row.text)
+                              : app.add_option_function<std::string>(flag, checked, row.text);
+    option->group(row.group);
+    if (row.value != nullptr) option->type_name(row.value)->trigger_on_parse(row.repeats);
+    if (row.preset != nullptr) option->default_str(row.preset);
+}
+
 void add_rows(CLI::App& app, Options& options) {
-    for (const Row& row : rows) {
-        const std::string flag = fmt::format("--{}", row.name);
-        const auto apply = [&row, &options](const std::string& value) {
-            try {
-                row.apply(options, value);
-            } catch (const Failure& failure) {
-                throw CLI::ValidationError(fmt::format("--{}", row.name), failure.what());
-            }
-        };
-        CLI::Option* option = row.value == nullptr
-                                  ? app.add_flag_function(
-                                        flag, [apply](std::int64_t) { apply(""); }, row.text)
-                                  : app.add_option_function<std::string>(flag, apply, row.text);
-        option->group(row.group);
-        if (row.value != nullptr) option->type_name(row.value)->trigger_on_parse(row.repeats);
-        if (row.preset != nullptr) option->default_str(row.preset);
-    }
+    for (const Row& row : rows)
+        add_row(app, row,
+                [&row, &options](const std::string& value) { row.apply(options, value); });
 }
 
 std::string troff(std::string_view text) {
@@ -230,6 +235,16 @@ Options parse_options(const std::vector<std::string>& arguments) {
     }
     require_passable(options.povray_arguments);
     return options;
+}
+
+void add_keeping_options(CLI::App& app, Options& options, std::vector<std::string>& given) {
+    for (const Row& row : rows) {
+        if (std::string_view(row.group) != keeping) continue;
+        add_row(app, row, [&row, &options, &given](const std::string& value) {
+            row.apply(options, value);
+            given.push_back(fmt::format("--{}={}", row.name, value));
+        });
+    }
 }
 
 std::string help_text() {

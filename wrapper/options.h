@@ -13,6 +13,10 @@
 #include <string_view>
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace mpipov {
 
 enum class ProgressStyle { automatic, plain, none };
@@ -59,6 +63,11 @@ struct Options {
 // Every argument that begins with `--` is ours (its value after `=` or as the next argument), all
 // others are POV-Ray's; after a lone `--` everything is. Throws Failure(Exit::usage).
 Options parse_options(const std::vector<std::string>& arguments);
+
+// Those of "What a scene may do" (--allow-read ... --disk-limit), for another program that starts
+// POV-Ray: from the same table. While `app` parses they are set in `options`, and put into `given`
+// as mpipov takes them. Both must outlive that.
+void add_keeping_options(CLI::App& app, Options& options, std::vector<std::string>& given);
 
 std::string help_text();
 std::string manual_page();  // troff, for man(1)

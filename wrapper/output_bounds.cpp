@@ -79,10 +79,15 @@ class Bounds {
     std::vector<fs::path> folders_, allowed_, named_;
 };
 
-[[noreturn]] void refuse(const fs::path& target, const char* why) {
-    throw Failure(Exit::usage, fmt::format("'{}' is not written: {} with +O, or allow it with "
-                                           "--allow-write",
-                                           target.string(), why));
+struct Target {
+    fs::path file;
+    const char* option;  // that names it
+};
+
+[[noreturn]] void refuse(const Target& target, const fs::path& file, const char* why) {
+    throw Failure(Exit::usage, fmt::format("'{}' is not written: {}. Name it with {}, or allow it "
+                                           "with --allow-write",
+                                           file.string(), why, target.option));
 }
 
 }  // namespace
@@ -91,24 +96,31 @@ void require_within_bounds(const OutputPlace& place, const Options& options,
                            const FolderRequest& user) {
     if (options.confine == Confining::off) return;
     const Bounds bounds(options, user);
-    std::vector<fs::path> targets{place.image(), place.record(), place.work_folder()};
+    const char* const of_work = "--work-dir";
+    std::vector<Target> targets{
+        {place.image(), "+O"}, {place.record(), "--record"}, {place.work_folder(), of_work}};
     // A scene may bring a work folder to go on from.
     std::error_code error;
     for (fs::directory_iterator it(place.work_folder(), error);
          !error && it != fs::directory_iterator(); it.increment(error))
-        if (it->is_symlink()) targets.push_back(it->path());
-    for (const fs::path& file : targets) {
+        if (it->is_symlink()) targets.push_back({it->path(), of_work});
+    for (const Target& target : targets) {
+        const fs::path& file = target.file;
+        const bool is_link = fs::is_symlink(file, error);
         if (is_written_into(file)) {
             // It is not opened for a look where it leads: /dev/fd/5 is a link to what has no name.
-            std::error_code ignored;
-            const bool device = lies_in(fs::absolute(file, ignored).lexically_normal(), "/dev");
-            if (bounds.name(file) && (device || !fs::is_symlink(file))) continue;
+            const bool device = lies_in(fs::absolute(file, error).lexically_normal(), "/dev");
+            if (bounds.name(file) && (device || !is_link)) continue;
             if (bounds.allow(real(file))) continue;
-            refuse(file, "it is a pipe or a device that the command line does not name. Name it");
+            refuse(target, file, "it is a pipe or a device that the command line does not name");
         }
-        const fs::path target = real(end_of_links(file));
-        if (!bounds.hold(target))
-            refuse(target, "it lies in no folder that the command line names. Name it");
+        // Record and work folder are called after the image, and lie beside it.
+        const bool beside =
+            bounds.name(place.image()) && file.parent_path() == place.image().parent_path();
+        if ((bounds.name(file) || beside) && !is_link) continue;
+        const fs::path end = real(end_of_links(file));
+        if (!bounds.hold(end))
+            refuse(target, end, "it lies in no folder that the command line names");
     }
 }
 

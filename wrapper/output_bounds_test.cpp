@@ -45,6 +45,19 @@ class OutputBoundsTest : public testing::Test {
     fs::path settings_;
 };
 
+TEST_F(OutputBoundsTest, WhatTheUserNamesIsWritten) {
+    fs::current_path(at("home"));
+    EXPECT_THAT(refused(".hidden.png"), HasSubstr("+O")) << "a scene's INI file may say so";
+    options_.povray_arguments = {"work/scene.pov", "+O.hidden.png"};
+    EXPECT_EQ(refused(".hidden.png"), "") << "its record and work folder lie beside it";
+    fs::current_path(at("home/work"));
+    options_.povray_arguments = {"scene.pov", "+O../pictures"};
+    EXPECT_EQ(refused("../pictures.png"), "") << "POV-Ray adds an extension, folder or not";
+    fs::create_symlink(at("home/.ssh/id.png"), at("home/work/link.png"));
+    options_.povray_arguments = {"scene.pov", "+Olink.png"};
+    EXPECT_THAT(refused("link.png"), HasSubstr("id.png")) << "a link is not what he named";
+}
+
 TEST_F(OutputBoundsTest, AreTheFolderOfTheRunAndWhatTheUserNames) {
     EXPECT_EQ(refused("scene.png"), "");
     EXPECT_EQ(refused("out/scene.png"), "");

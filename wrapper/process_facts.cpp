@@ -78,9 +78,9 @@ std::uint64_t disk_bytes_in(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::recursive_directory_iterator it(folder, error);
     for (; !error && it != std::filesystem::recursive_directory_iterator(); it.increment(error)) {
+        if (it->is_symlink(error)) continue;  // known without another look: there may be very many
         struct stat status {};
         const bool known = ::lstat(it->path().c_str(), &status) == 0;
-        if (known && S_ISLNK(status.st_mode)) continue;
         const auto bytes = known ? static_cast<std::uint64_t>(status.st_blocks) * 512 : 0;
         sum += std::max(bytes, least_file_bytes);
     }

@@ -52,6 +52,7 @@ std::optional<RefusedFile> refused_file(std::string_view output) {
             return RefusedFile{std::move(*name), true};
     // It says which file before it says what for.
     if (!between(*last, "Parse Error: Cannot open ", "") &&
+        !between(*last, "Parse Error: Cannot read ", "") &&
         !between(*last, "Possible Parse Error: Cannot ", ""))
         return {};
     for (auto line = last; line != lines.rend() && line - last < 2; ++line)

@@ -31,6 +31,10 @@ TEST(RefusedFile, IsTheOneThatPovrayNamesLast) {
                       "after\n trying to append file type extension.\n"
                       "File 'c.pov' line 2: Possible Parse Error: Cannot find image file.\n"),
               "read no.png");
+    EXPECT_EQ(name_in("File 'c.pov' line 2: Possible Parse Error: Cannot find file 'no.df3', even "
+                      "after\n trying to append file type extension.\n"
+                      "File 'c.pov' line 2: Parse Error: Cannot read media density file.\n"),
+              "read no.df3");
     EXPECT_EQ(
         name_in("Possible Parse Error: Cannot find file 'it's.pov', even after trying to append"
                 "\n file type extension.\nParse Error: Cannot open input file.\n"),

@@ -1,6 +1,7 @@
 #include "scene_writes.h"
 
 #include "file_text.h"
+#include "interrupt.h"
 #include "scene_files.h"
 #include "scene_folders.h"
 
@@ -19,6 +20,7 @@ constexpr std::uintmax_t most_copied_bytes = std::uintmax_t{64} << 20;
 // Of a file, and of all, that a scene may or may not write to: what it keeps notes in is small.
 constexpr std::uintmax_t most_guessed_bytes = std::uintmax_t{1} << 20;
 constexpr std::uintmax_t most_guessed_in_all = std::uintmax_t{16} << 20;
+constexpr int most_guessed_files = 200;
 // Between the directive and its last word.
 constexpr std::size_t longest_name = 400;
 
@@ -118,10 +120,11 @@ class Copies {
         if (std::ranges::find(written_.names, entry.path().filename().string()) !=
             written_.names.end())
             return bytes <= most_copied_bytes;
-        if (!written_.computed || bytes > most_guessed_bytes ||
-            guessed_bytes_ + bytes > most_guessed_in_all)
+        if (!written_.computed || guessed_files_ >= most_guessed_files ||
+            bytes > most_guessed_bytes || guessed_bytes_ + bytes > most_guessed_in_all)
             return false;
         guessed_bytes_ += bytes;
+        ++guessed_files_;
         return true;
     }
 
@@ -130,6 +133,7 @@ class Copies {
     const std::vector<fs::path>& readable_;
     bool all_readable_;
     std::uintmax_t guessed_bytes_ = 0;
+    int guessed_files_ = 0;
 };
 
 }  // namespace
@@ -145,13 +149,16 @@ fs::path make_writable_view(const fs::path& folder, const fs::path& original,
         fs::create_directory(at);
     }
     Copies copies(original, written, readable);
-    for (const auto& entry : fs::directory_iterator(original)) {
-        const fs::path name = entry.path().filename();
-        std::error_code error;
-        if (copies.takes(entry))
-            fs::copy_file(entry.path(), at / name, error);
+    std::error_code error;  // of a folder that may not be listed POV-Ray sees nothing either
+    for (fs::directory_iterator entry(original, error), end; !error && entry != end;
+         entry.increment(error)) {
+        throw_if_interrupted();  // there may be very many
+        const fs::path name = entry->path().filename();
+        std::error_code ignored;
+        if (copies.takes(*entry))
+            fs::copy_file(entry->path(), at / name, ignored);
         else
-            fs::create_symlink(entry.path(), at / name, error);
+            fs::create_symlink(entry->path(), at / name, ignored);
     }
     return at;
 }

@@ -28,8 +28,9 @@ SceneWrites writes_in_folder(const std::filesystem::path& folder);
 // returned: there lies a link to everything that lies in `original`, and so do links beside each
 // folder that leads to it, so that names which begin with ../ mean the same (not beside more than
 // 4096 others). What the scene writes there stays in `folder`: of what it names it gets copies, and
-// where it computes a name, of all files of at most 1 MiB, 16 MiB together; but never of one that
-// may_be_read() of `readable` does not allow. Throws std::filesystem::filesystem_error.
+// where it computes a name, of 200 files of at most 1 MiB, 16 MiB together; but never of one that
+// may_be_read() of `readable` does not allow. Throws std::filesystem::filesystem_error,
+// Failure(Exit::interrupted).
 std::filesystem::path make_writable_view(const std::filesystem::path& folder,
                                          const std::filesystem::path& original,
                                          const SceneWrites& written,
