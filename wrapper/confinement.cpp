@@ -48,7 +48,7 @@ constexpr std::uint64_t least_disk_bytes = std::uint64_t{1} << 30;
 constexpr std::uint64_t disk_bytes_per_pixel = 72;
 
 fs::path write_configuration(const fs::path& own) {
-    const fs::path home = own / "home";
+    fs::path home = own / "home";
     std::error_code error;
     fs::create_directories(home / version_folder, error);
     const fs::path file = home / version_folder / "povray.conf";

@@ -99,7 +99,7 @@ json read_head(const std::filesystem::path& folder) {
 }
 
 // "a/b/" names the same folder as "a/b", but its parent is another.
-std::filesystem::path without_last_slash(std::filesystem::path folder) {
+std::filesystem::path without_last_slash(const std::filesystem::path& folder) {
     return folder.has_filename() || !folder.has_parent_path() ? folder : folder.parent_path();
 }
 

@@ -23,7 +23,7 @@ fs::path settings_of_user(const fs::path& home) {
     if (named != nullptr && fs::is_regular_file(named, error)) return fs::absolute(named, error);
     if (fs::exists("povray.ini", error)) return {};
     if (home.empty()) return {};
-    const fs::path own = home / ".povray/3.7/povray.ini";
+    fs::path own = home / ".povray/3.7/povray.ini";
     if (fs::is_regular_file(own, error)) return own;
     // The system's come before the older name of the user's.
     for (const char* systems :
