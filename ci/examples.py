@@ -14,9 +14,9 @@ Exit codes: 0 ok, 1 a scene comes out otherwise, 2 usage, 77 the examples are no
 import collections
 import json
 import shutil
-import subprocess
 
-from program_runs import Skip, TestFailure, argument_parser, fresh_folder, programs_of, report
+from program_runs import (Skip, TestFailure, argument_parser, fresh_folder, programs_of, report,
+                          run)
 from scene_list import EXAMPLES
 
 SIZE = ["+W64", "+H48", "-D"]
@@ -27,11 +27,10 @@ RARE = 1000  # one pixel in so many, at the most, by the shadow cache
 def ended(argv, folder):
     """The exit code and what was printed; None where it took too long."""
     try:
-        done = subprocess.run([str(word) for word in argv], cwd=folder, stdin=subprocess.DEVNULL,
-                              capture_output=True, timeout=MOST_SECONDS, check=False)
-    except subprocess.TimeoutExpired:
+        done = run(argv, folder, seconds=MOST_SECONDS)
+    except TestFailure:
         return None, f"took longer than {MOST_SECONDS} s"
-    return done.returncode, done.stderr.decode(errors="replace").strip()
+    return done.code, done.stderr.strip()
 
 
 def wrong_pixels(programs, folder):

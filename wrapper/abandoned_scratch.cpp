@@ -7,17 +7,14 @@
 #include <sys/vfs.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <ctime>
+#include <regex>
 #include <string>
-#include <string_view>
 #include <system_error>
 
 namespace mpipov {
 namespace {
 
-constexpr std::string_view prefix = "mpipov-";
-constexpr std::size_t random_letters = 6;  // mkdtemp()'s
 constexpr mode_t marked_mode = S_IRWXU | S_ISUID;
 constexpr long xfs_magic = 0x58465342;  // not in linux/magic.h
 
@@ -52,18 +49,9 @@ Fd locked(const std::filesystem::path& folder) {
 }  // namespace
 
 bool is_scratch_name(const std::string& name) {
-    if (name.size() <= prefix.size() + 1 + random_letters || !name.starts_with(prefix))
-        return false;
-    const std::size_t dot = name.size() - random_letters - 1;
-    const auto all_of = [&](std::size_t from, std::size_t to, auto&& test) {
-        return std::all_of(name.begin() + static_cast<std::ptrdiff_t>(from),
-                           name.begin() + static_cast<std::ptrdiff_t>(to), test);
-    };
-    const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-    const auto small = [&](char c) { return digit(c) || (c >= 'a' && c <= 'z'); };
-    const auto letter = [&](char c) { return small(c) || (c >= 'A' && c <= 'Z'); };
-    return name[dot] == '.' && all_of(prefix.size(), dot, small) &&
-           all_of(dot + 1, name.size(), letter);
+    // The last letters are mkdtemp()'s.
+    static const std::regex shape("mpipov-[a-z0-9]+\\.[A-Za-z0-9]{6}");
+    return std::regex_match(name, shape);
 }
 
 Fd hold(const std::filesystem::path& folder) {

@@ -168,8 +168,8 @@ void Coordinator::handle(const Message& message) {
 
 Coordinator::Source Coordinator::source_of(const Message& message) {
     const MessageFields fields(message.head);
-    const int id = fields.number("section", 0, most_sections);
-    const int attempt = fields.number("attempt", 0, most_attempts);
+    const int id = fields.section();
+    const int attempt = fields.attempt();
     if (id >= static_cast<int>(sections_.size()))
         throw std::runtime_error(fmt::format("rank {} sent an unknown section", message.peer));
     Progress& progress = sections_[static_cast<std::size_t>(id)];

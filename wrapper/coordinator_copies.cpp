@@ -114,8 +114,8 @@ void Coordinator::keep_only(Progress& progress, const Run& winner) {
 
 void Coordinator::take_end_of_loser(const Message& message) {
     const MessageFields fields(message.head);
-    const int id = fields.number("section", 0, most_sections);
-    const int attempt = fields.number("attempt", 0, most_attempts);
+    const int id = fields.section();
+    const int attempt = fields.attempt();
     const double cpu_seconds = fields.seconds("cpu_seconds");
     if (losers_.erase({id, attempt, message.peer}) == 0)
         throw std::runtime_error(

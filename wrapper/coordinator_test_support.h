@@ -70,11 +70,7 @@ class Rig {
         if (random_() % 2 == 0) return worker.step(random_);
         const auto message = ranks_.at(rank).try_receive();
         if (!message) return;
-        const bool is_for_worker =
-            message->kind == MessageKind::job || message->kind == MessageKind::assign ||
-            message->kind == MessageKind::cancel || message->kind == MessageKind::stop ||
-            message->kind == MessageKind::cache;
-        if (is_for_worker) return worker.handle(*message);
+        if (is_for_worker(message->kind)) return worker.handle(*message);
         const double before = coordinator_.fraction();
         coordinator_.handle(*message);
         EXPECT_GE(coordinator_.fraction(), before);

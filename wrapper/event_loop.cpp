@@ -20,13 +20,6 @@ constexpr int shortest_sleep_ms = 1, longest_sleep_ms = 25;
 // Nothing but a child's end, which ends the sleep, can happen to a rank that is alone.
 constexpr int longest_sleep_alone_ms = 100;
 
-bool is_for_worker(const Message& message) {
-    const MessageKind kind = message.kind;
-    return kind == MessageKind::job || kind == MessageKind::assign || kind == MessageKind::cancel ||
-           kind == MessageKind::stop || kind == MessageKind::look || kind == MessageKind::pack ||
-           kind == MessageKind::piece || kind == MessageKind::cache;
-}
-
 double seconds_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
@@ -97,7 +90,7 @@ class Watch {
 
 void dispatch(const EventLoop& loop, const Message& message) {
     if (message.kind == MessageKind::alive) return;
-    if (is_for_worker(message)) {
+    if (is_for_worker(message.kind)) {
         loop.worker.handle(message);
     } else if (message.kind == MessageKind::refused) {
         const MessageFields fields(message.head);

@@ -65,21 +65,19 @@ void remove_files(const std::filesystem::path& folder, std::string_view but = {}
 // of it when the process ends, however it ends. Where there can be no lock, writing will say why.
 Fd lock_for_one_run(const std::filesystem::path& file, int flags) {
     constexpr mode_t as_streams_do = 0666;
-    const auto opened = [&](int how) {
-        return Fd(::open(file.c_str(), how | O_CLOEXEC | O_NOFOLLOW | flags, as_streams_do));
-    };
-    // For reading: a file that is open for writing keeps its disk from being made read-only.
-    Fd fd = opened(O_RDONLY);
-    int status = fd.get() < 0 ? 0 : ::flock(fd.get(), LOCK_EX | LOCK_NB);
-    if (status != 0 && errno == EBADF) {  // NFS
-        fd = opened(O_RDWR);
-        status = fd.get() < 0 ? 0 : ::flock(fd.get(), LOCK_EX | LOCK_NB);
+    Fd fd;
+    // For reading: a file that is open for writing keeps its disk from being made read-only. But
+    // NFS wants it open for writing (EBADF).
+    for (const int how : {O_RDONLY, O_RDWR}) {
+        fd = Fd(::open(file.c_str(), how | O_CLOEXEC | O_NOFOLLOW | flags, as_streams_do));
+        if (fd.get() < 0 || ::flock(fd.get(), LOCK_EX | LOCK_NB) == 0) break;
+        if (errno == EWOULDBLOCK)
+            throw Failure(Exit::usage,
+                          fmt::format("the work folder '{}' is in use by another run: wait for "
+                                      "its end, or name another one with --work-dir",
+                                      file.parent_path().string()));
+        if (errno != EBADF) break;
     }
-    if (status != 0 && errno == EWOULDBLOCK)
-        throw Failure(Exit::usage,
-                      fmt::format("the work folder '{}' is in use by another run: wait for its "
-                                  "end, or name another one with --work-dir",
-                                  file.parent_path().string()));
     return fd;
 }
 

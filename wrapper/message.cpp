@@ -16,6 +16,12 @@ constexpr std::size_t prefix_bytes = 5;
 
 }  // namespace
 
+bool is_for_worker(MessageKind kind) {
+    return kind == MessageKind::job || kind == MessageKind::assign || kind == MessageKind::cancel ||
+           kind == MessageKind::stop || kind == MessageKind::look || kind == MessageKind::pack ||
+           kind == MessageKind::piece || kind == MessageKind::cache;
+}
+
 std::vector<std::byte> pack(const Message& message) {
     const std::string head =
         message.head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

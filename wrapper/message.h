@@ -32,6 +32,9 @@ enum class MessageKind : unsigned char {
     bye,        // worker: its last message
 };
 
+// Whether a rank's worker takes it: what only the coordinator says.
+bool is_for_worker(MessageKind kind);
+
 // NOLINTNEXTLINE(bugprone-exception-escape): moving JSON only asserts
 struct Message {
     MessageKind kind = MessageKind::stop;

@@ -14,6 +14,8 @@ namespace {
 using nlohmann::json;
 
 constexpr double most_seconds = 1e9;  // no run takes so long
+// Above any number of a section, and of attempts at it.
+constexpr int most_sections = 1 << 30, most_attempts = 1 << 30;
 
 template <class Read>
 auto read(const json& head, const char* key, Read&& read_it) {
@@ -23,6 +25,15 @@ auto read(const json& head, const char* key, Read&& read_it) {
         throw std::runtime_error(fmt::format("a message between ranks is damaged: '{}': {}", key,
                                              plain_words(error.what())));
     }
+}
+
+template <class Number>
+Number whole(const json& value, Number least, Number most) {
+    const auto number = whole_number<Number>(value);
+    if (number < least || number > most)
+        throw std::runtime_error(
+            fmt::format("must be from {} to {}, but is {}", least, most, number));
+    return number;
 }
 
 double real(const json& value, double least, double most) {
@@ -54,21 +65,20 @@ std::string name_from_json(const json& value) {
 }  // namespace
 
 int MessageFields::number(const char* key, int least, int most) const {
-    return read(head_, key, [&](const json& value) {
-        const int number = whole_number<int>(value);
-        if (number < least || number > most)
-            throw std::runtime_error(
-                fmt::format("must be from {} to {}, but is {}", least, most, number));
-        return number;
-    });
+    return read(head_, key, [&](const json& value) { return whole(value, least, most); });
 }
 
-std::uint64_t MessageFields::size(const char* key, std::uint64_t most) const {
+int MessageFields::section() const {
+    return number("section", 0, most_sections);
+}
+
+int MessageFields::attempt() const {
+    return number("attempt", 0, most_attempts);
+}
+
+std::uint64_t MessageFields::size(const char* key, std::int64_t most) const {
     return read(head_, key, [&](const json& value) {
-        const auto size = whole_number<std::int64_t>(value);
-        if (size < 0 || static_cast<std::uint64_t>(size) > most)
-            throw std::runtime_error(fmt::format("must be from 0 to {}, but is {}", most, size));
-        return static_cast<std::uint64_t>(size);
+        return static_cast<std::uint64_t>(whole(value, std::int64_t{0}, most));
     });
 }
 

@@ -14,9 +14,6 @@
 
 namespace mpipov {
 
-// Above any number of a section, and of attempts at it.
-constexpr int most_sections = 1 << 30, most_attempts = 1 << 30;
-
 // Reads a head that must outlive it. Everything throws std::runtime_error, which names the member,
 // where it is missing, of another type or out of bounds.
 class MessageFields {
@@ -24,8 +21,11 @@ class MessageFields {
     explicit MessageFields(const nlohmann::json& head) : head_(head) {}
 
     int number(const char* key, int least, int most) const;
+    // Which launch a message is about: a section, and the attempt at it.
+    int section() const;
+    int attempt() const;
     // Of bytes, or of anything that may be more than an int holds.
-    std::uint64_t size(const char* key, std::uint64_t most) const;
+    std::uint64_t size(const char* key, std::int64_t most) const;
     double seconds(const char* key) const;  // 0 or more
     std::optional<double> seconds_or_none(const char* key) const;
     double part(const char* key) const;  // from 0 to 1

@@ -56,12 +56,11 @@ class Bounds {
     }
 
     bool hold(const fs::path& target) const {
-        const auto in = [&](const fs::path& folder) { return lies_in(target, folder); };
         return allow(target) || std::ranges::any_of(folders_, [&](const fs::path& folder) {
                    return is_for_more_than_a_scene(folder, home_)
                               ? target.parent_path() == folder &&
                                     !target.filename().string().starts_with('.')
-                              : in(folder);
+                              : lies_in(target, folder);
                });
     }
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t sha1_length = 40;
 // Of a file; what a pack may take is a limit of its own.
-constexpr std::uint64_t most_bytes = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t most_bytes = std::numeric_limits<std::int64_t>::max();
 
 bool is_sha1(std::string_view text) {
     return text.size() == sha1_length &&

@@ -110,19 +110,19 @@ class Copies {
            const std::vector<fs::path>& readable)
         : written_(written), readable_(readable), all_readable_(may_be_read(original, readable)) {}
 
+    // What costs least is asked first: there may be very many files.
     bool takes(const fs::directory_entry& entry) {
+        const bool named = std::ranges::find(written_.names, entry.path().filename().string()) !=
+                           written_.names.end();
+        if (!named && (!written_.computed || guessed_files_ >= most_guessed_files)) return false;
         std::error_code error;
         // Not what a link leads to: that may be out of the scene's reach.
         if (entry.symlink_status(error).type() != fs::file_type::regular) return false;
-        if (!all_readable_ && !may_be_read(entry.path(), readable_)) return false;
         const std::uintmax_t bytes = entry.file_size(error);
-        if (error) return false;
-        if (std::ranges::find(written_.names, entry.path().filename().string()) !=
-            written_.names.end())
-            return bytes <= most_copied_bytes;
-        if (!written_.computed || guessed_files_ >= most_guessed_files ||
-            bytes > most_guessed_bytes || guessed_bytes_ + bytes > most_guessed_in_all)
-            return false;
+        if (error || bytes > (named ? most_copied_bytes : most_guessed_bytes)) return false;
+        if (!named && guessed_bytes_ + bytes > most_guessed_in_all) return false;
+        if (!all_readable_ && !may_be_read(entry.path(), readable_)) return false;
+        if (named) return true;
         guessed_bytes_ += bytes;
         ++guessed_files_;
         return true;

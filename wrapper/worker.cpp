@@ -69,9 +69,8 @@ void Worker::start(const Message& message) {
     if (!cache_.complete())
         throw std::runtime_error("a section was assigned before its radiosity cache was sent");
     const MessageFields fields(message.head);
-    const Section section{fields.number("section", 0, most_sections), fields.rect("keep"),
-                          fields.rect("render")};
-    const int attempt = fields.number("attempt", 0, most_attempts);
+    const Section section{fields.section(), fields.rect("keep"), fields.rect("render")};
+    const int attempt = fields.attempt();
     if (section.render.empty() || intersect(section.keep, section.render) != section.keep ||
         intersect(section.render, {0, 0, image_.width, image_.height}) != section.render)
         throw std::runtime_error("a section was assigned that does not lie in the image");
@@ -180,8 +179,8 @@ Worker::State Worker::end_broken(Launch& launch) {
 // Nothing where it has ended meanwhile: the coordinator has heard of that.
 void Worker::cancel(const Message& message) {
     const MessageFields fields(message.head);
-    const int id = fields.number("section", 0, most_sections);
-    const int attempt = fields.number("attempt", 0, most_attempts);
+    const int id = fields.section();
+    const int attempt = fields.attempt();
     for (Launch& launch : launches_)
         if (launch.section.id == id && launch.attempt == attempt) {
             launch.cancelled = true;

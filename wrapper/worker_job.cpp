@@ -12,7 +12,7 @@ namespace mpipov {
 
 void Worker::take_job(const nlohmann::json& head) {
     constexpr int most_pixels = 1 << 30, most_threads = 1 << 16;
-    constexpr std::uint64_t most_cache_bytes = std::uint64_t{1} << 50;
+    constexpr std::int64_t most_cache_bytes = std::int64_t{1} << 50;
     const MessageFields fields(head);
     const ImageSize image{fields.number("width", 1, most_pixels),
                           fields.number("height", 1, most_pixels)};
